@@ -1,0 +1,70 @@
+# How modules, apps and tests are declared. One place for every compiler flag.
+
+add_library(foothold_flags INTERFACE)
+target_compile_options(foothold_flags INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion>
+  # Results must not depend on whether a compiler fuses a multiplication with an addition: bodies that want it say std::fma.
+  $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off -fno-math-errno -fno-trapping-math>
+  $<$<COMPILE_LANGUAGE:CUDA>:--fmad=false --expt-relaxed-constexpr -diag-suppress=20012 -Xcompiler=-Wall,-Wextra,-ffp-contract=off>)
+if(FOOTHOLD_CPU AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" OR FOOTHOLD_CPU STREQUAL "native")
+  target_compile_options(foothold_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-march=${FOOTHOLD_CPU}>)
+endif()
+if(FOOTHOLD_WERROR)
+  target_compile_options(foothold_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-Werror> $<$<COMPILE_LANGUAGE:CUDA>:-Werror=all-warnings -Xcompiler=-Werror>)
+endif()
+if(FOOTHOLD_SANITIZE)
+  target_compile_options(foothold_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${FOOTHOLD_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all>)
+  target_link_options(foothold_flags INTERFACE -fsanitize=${FOOTHOLD_SANITIZE})
+endif()
+
+# foothold_module(<name> [SOURCES ...] [CUDA_SOURCES ...] [PUBLIC ...] [PRIVATE ...])
+#
+# A library foothold_<name>, alias foothold::<name>, with its public headers in include/ and its private ones in src/.
+# CUDA_SOURCES are added where the build has CUDA. A module without sources is header-only.
+function(foothold_module name)
+  cmake_parse_arguments(arg "" "" "SOURCES;CUDA_SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(target foothold_${name})
+  if(arg_SOURCES)
+    add_library(${target} ${arg_SOURCES})
+    set(scope PUBLIC)
+    target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:foothold_flags>)
+    target_include_directories(${target} PRIVATE src)
+    if(FOOTHOLD_HAS_CUDA AND arg_CUDA_SOURCES)
+      target_sources(${target} PRIVATE ${arg_CUDA_SOURCES})
+      target_compile_definitions(${target} PRIVATE FOOTHOLD_HAS_CUDA)
+      target_link_libraries(${target} PUBLIC CUDA::cudart_static)
+    endif()
+  else()
+    add_library(${target} INTERFACE)
+    set(scope INTERFACE)
+  endif()
+  add_library(foothold::${name} ALIAS ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(${target} ${scope} $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_compile_features(${target} ${scope} cxx_std_17)
+  target_link_libraries(${target} ${scope} ${arg_PUBLIC})
+  if(arg_PRIVATE)
+    target_link_libraries(${target} PRIVATE ${arg_PRIVATE})
+  endif()
+  set_property(GLOBAL APPEND PROPERTY FOOTHOLD_MODULES ${name})
+endfunction()
+
+# foothold_app(<name> SOURCES ... [LIBRARIES ...]): an executable in bin/.
+function(foothold_app name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE foothold_flags ${arg_LIBRARIES})
+  set_property(GLOBAL APPEND PROPERTY FOOTHOLD_APPS ${name})
+endfunction()
+
+# foothold_test(<module> SOURCES ... [LIBRARIES ...])
+#
+# An executable foothold_<module>_tests whose Catch2 test cases become CTest tests. It may see the module's private headers.
+function(foothold_test module)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  set(target foothold_${module}_tests)
+  add_executable(${target} ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE foothold_flags foothold_test_support foothold::${module} ${arg_LIBRARIES})
+  target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/modules/${module}/src)
+  catch_discover_tests(${target} TEST_PREFIX "${module}/" DISCOVERY_MODE PRE_TEST)
+endfunction()

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// One RGB-D frame: as a view into memory that a tracker owns, and as owned images.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "foothold/base/camera.h"
+#include "foothold/base/image.h"
+#include "foothold/base/se3.h"
+
+namespace foothold {
+
+/// The calibration of an RGB-D camera. Poses belong to the depth camera.
+struct RgbdCalibration {
+  Intrinsics depth;
+  Intrinsics colour;
+  /// Transforms points of the colour camera into the depth camera; the identity for registered images.
+  SE3 depth_from_colour;
+};
+
+/// A non-owning RGB-D frame. Depth is z in metres, dense rows; zero, negative and NaN all mean "no measurement" (InfiniTAM writes -1).
+/// Depth and colour live in the same kind of memory and have the same size.
+struct Frame {
+  ImageView<const float> depth;
+  ColourView colour;
+  RgbdCalibration calibration;
+  std::int64_t index = 0;
+  double timestamp_s = 0.0;
+};
+
+/// Checks what every consumer of frames relies on: images present, equal sizes, one kind of memory, valid intrinsics.
+/// @return Empty if the frame is well formed, else what is wrong with it.
+std::string describe_frame_error(const Frame& frame);
+
+/// An RGB-D frame that owns its images, as read from a camera or a recording.
+struct RgbdFrame {
+  Image<float> depth;  ///< z [m]
+  Image<Rgb8> colour;
+  RgbdCalibration calibration;
+  std::int64_t index = 0;  ///< position in the recording
+  double timestamp_s = 0.0;
+  std::optional<SE3> world_from_camera;  ///< the true pose of the depth camera, where known
+
+  Frame view() const { return {depth.view(), colour_view(colour), calibration, index, timestamp_s}; }
+};
+
+}  // namespace foothold

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The interface that trackers see.
+#pragma once
+
+#include <cstddef>
+#include <iosfwd>
+#include <vector>
+
+#include "foothold/api/frame.h"
+#include "foothold/base/se3.h"
+
+namespace foothold {
+
+/// A proposed pose of the depth camera.
+struct PoseEstimate {
+  SE3 world_from_camera;
+  /// Calibrated probability that the pose is right (within 10 cm and 10 deg), in [0, 1].
+  float confidence = 0.0F;
+};
+
+/// Finds the pose of a camera that has lost track, in a scene learnt from the frames it saw before.
+///
+/// One object serves one thread of control. Frames may live in host or CUDA memory, as the implementation's context demands.
+class Relocaliser {
+ public:
+  virtual ~Relocaliser() = default;
+
+  /// Learns from a frame whose pose is trusted. Bounded work. A frame without valid depth teaches nothing.
+  /// @pre describe_frame_error(frame) is empty and the pose is rigid.
+  virtual void train(const Frame& frame, const SE3& world_from_camera) = 0;
+
+  /// Proposes camera poses for a frame, best first, each with a confidence; empty when none is plausible, as before any training.
+  /// @pre describe_frame_error(frame) is empty.
+  virtual std::vector<PoseEstimate> relocalise(const Frame& frame) = 0;
+
+  /// Spends spare time on upkeep (re-clustering). Call between frames.
+  virtual void update() = 0;
+
+  /// Forgets the scene; keeps what was learnt offline.
+  virtual void reset() = 0;
+
+  /// Memory held for the scene learnt so far [bytes].
+  virtual std::size_t state_bytes() const = 0;
+
+  /// The confidence at and above which a host should believe the first estimate.
+  virtual float acceptance_threshold() const = 0;
+
+ protected:
+  Relocaliser() = default;
+  Relocaliser(const Relocaliser&) = default;
+  Relocaliser& operator=(const Relocaliser&) = default;
+};
+
+/// Whatever can write its scene to a stream and read it back.
+class Persistent {
+ public:
+  virtual ~Persistent() = default;
+  /// @throws FileError if writing fails.
+  virtual void save(std::ostream& stream) const = 0;
+  /// Replaces the scene. On failure the former scene stays. @throws FileError for a damaged stream or one of another kind or version.
+  virtual void load(std::istream& stream) = 0;
+
+ protected:
+  Persistent() = default;
+  Persistent(const Persistent&) = default;
+  Persistent& operator=(const Persistent&) = default;
+};
+
+}  // namespace foothold

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/api/frame.h"
+
+namespace foothold {
+namespace {
+std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+}  // namespace
+
+std::string describe_frame_error(const Frame& frame) {
+  if (frame.depth.empty()) return "the depth image is empty";
+  if (frame.colour.empty()) return "the colour image is empty";
+  if (frame.depth.width != frame.colour.width || frame.depth.height != frame.colour.height) {
+    return "the depth image is " + size_text(frame.depth.width, frame.depth.height) + " but the colour image is " +
+           size_text(frame.colour.width, frame.colour.height) + "; both must have one size";
+  }
+  if (frame.depth.memory != frame.colour.memory) return "depth and colour live in different kinds of memory";
+  if (frame.colour.bytes_per_pixel != 3 && frame.colour.bytes_per_pixel != 4) {
+    return "the colour image has " + std::to_string(frame.colour.bytes_per_pixel) + " bytes per pixel; expected 3 or 4";
+  }
+  if (!is_valid(frame.calibration.depth)) return "the depth intrinsics need positive focal lengths and finite values";
+  if (!is_valid(frame.calibration.colour)) return "the colour intrinsics need positive focal lengths and finite values";
+  return {};
+}
+
+}  // namespace foothold

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// An owning, growing buffer in host or CUDA memory.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "foothold/base/contract.h"
+#include "foothold/base/platform.h"
+#include "foothold/base/span.h"
+
+namespace foothold {
+
+namespace detail {
+/// Returns 64-byte aligned memory. @throws CudaError, std::bad_alloc, or DeviceError in a build without CUDA.
+void* allocate_memory(MemoryKind memory, std::size_t num_bytes);
+/// Frees what allocate_memory() returned; never throws.
+void free_memory(MemoryKind memory, void* pointer) noexcept;
+/// Copies between any two kinds of memory and waits until it is done.
+void copy_memory(MemoryKind to_memory, void* to, MemoryKind from_memory, const void* from, std::size_t num_bytes);
+/// Sets every byte to zero.
+void clear_memory(MemoryKind memory, void* pointer, std::size_t num_bytes);
+}  // namespace detail
+
+/// A growing buffer of trivially copyable elements whose kind of memory is fixed at construction.
+///
+/// resize() keeps the contents and never gives memory back, so a buffer that is reused from frame to frame soon stops allocating.
+/// New elements are uninitialised unless stated. Not thread-safe.
+template <class T>
+class Array {
+  static_assert(std::is_trivially_copyable_v<T>, "Array moves its elements as bytes");
+
+ public:
+  explicit Array(MemoryKind memory = MemoryKind::kHost) : memory_(memory) {}
+  Array(MemoryKind memory, std::size_t size) : memory_(memory) { resize(size); }
+  /// Copies host elements into memory of the given kind.
+  Array(MemoryKind memory, Span<const T> host) : memory_(memory) { assign(host); }
+
+  Array(const Array& other) : memory_(other.memory_) { copy_from(other); }
+  Array(Array&& other) noexcept { swap(other); }
+  Array& operator=(Array other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Array() { detail::free_memory(memory_, data_); }
+
+  void swap(Array& other) noexcept {
+    std::swap(memory_, other.memory_);
+    std::swap(data_, other.data_);
+    std::swap(size_, other.size_);
+    std::swap(capacity_, other.capacity_);
+  }
+
+  MemoryKind memory() const { return memory_; }
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  /// Memory held, in bytes; at least size() elements.
+  std::size_t num_bytes() const { return capacity_ * sizeof(T); }
+  T* data() { return data_; }
+  const T* data() const { return data_; }
+  T& operator[](std::size_t i) { return data_[i]; }
+  const T& operator[](std::size_t i) const { return data_[i]; }
+  T* begin() { return data_; }
+  T* end() { return data_ + size_; }
+  const T* begin() const { return data_; }
+  const T* end() const { return data_ + size_; }
+
+  /// Makes room for `capacity` elements, exactly, keeping the contents.
+  void reserve(std::size_t capacity) {
+    if (capacity <= capacity_) return;
+    T* larger = static_cast<T*>(detail::allocate_memory(memory_, capacity * sizeof(T)));
+    if (size_ != 0) detail::copy_memory(memory_, larger, memory_, data_, size_ * sizeof(T));
+    detail::free_memory(memory_, data_);
+    data_ = larger;
+    capacity_ = capacity;
+  }
+  /// Sets the size, keeping the first elements; grows by at least a quarter when it must grow.
+  void resize(std::size_t size) {
+    if (size > capacity_) reserve(std::max(size, capacity_ + capacity_ / 4));
+    size_ = size;
+  }
+  /// Sets every byte of the contents to zero.
+  void clear_to_zero() {
+    if (size_ != 0) detail::clear_memory(memory_, data_, size_ * sizeof(T));
+  }
+  /// Replaces the contents by a copy of host elements.
+  void assign(Span<const T> host) {
+    resize(host.size());
+    if (size_ != 0) detail::copy_memory(memory_, data_, MemoryKind::kHost, host.data(), size_ * sizeof(T));
+  }
+  /// Returns a copy of the contents in host memory.
+  std::vector<T> to_host() const {
+    std::vector<T> host(size_);
+    if (size_ != 0) detail::copy_memory(MemoryKind::kHost, host.data(), memory_, data_, size_ * sizeof(T));
+    return host;
+  }
+
+ private:
+  void copy_from(const Array& other) {
+    resize(other.size_);
+    if (size_ != 0) detail::copy_memory(memory_, data_, other.memory_, other.data_, size_ * sizeof(T));
+  }
+
+  MemoryKind memory_ = MemoryKind::kHost;
+  T* data_ = nullptr;
+  std::size_t size_ = 0;
+  std::size_t capacity_ = 0;
+};
+
+}  // namespace foothold

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Everything an algorithm needs from its surroundings: device, threads, stream, log and trace. There are no globals.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "foothold/base/platform.h"
+#include "foothold/base/trace.h"
+
+namespace foothold {
+
+class Context;
+
+namespace detail {
+/// Device scratch memory of library calls; see exec/cuda_executor.cuh.
+void* cuda_scratch(const Context& context, std::size_t num_bytes);
+}  // namespace detail
+
+enum class LogLevel { kInfo, kWarning };
+
+/// Receives the library's messages; the default drops them.
+using LogSink = std::function<void(LogLevel, const std::string&)>;
+
+struct ContextOptions {
+  Device device = Device::kCpu;
+  /// Threads used on the host, the calling one included; 0 means as many as the machine has. [0, 1024]
+  int num_threads = 0;
+  LogSink log;
+  /// Receives the duration of every stage when given; must outlive the context. Tracing waits for the device after each stage.
+  Trace* trace = nullptr;
+};
+
+/// A device with its threads and stream. Cheap to copy; copies share the threads and the stream.
+///
+/// One context serves one thread of control at a time; two contexts, and so two relocalisers, may coexist.
+class Context {
+ public:
+  /// @throws InvalidSettings for a thread count out of range; DeviceError if the device or its driver is missing, or the build has no CUDA.
+  explicit Context(const ContextOptions& options = {});
+
+  Device device() const;
+  /// The kind of memory that this context's kernels work on.
+  MemoryKind memory() const { return memory_of(device()); }
+  int num_threads() const;
+  Trace* trace() const;
+  void log(LogLevel level, const std::string& message) const;
+  /// The CUDA stream (a cudaStream_t) of this context; nullptr on the CPU.
+  void* stream() const;
+  /// Waits until the device has finished what was asked of this context.
+  void synchronise() const;
+  /// The oneTBB task arena (a tbb::task_arena) that host work runs in.
+  void* arena() const;
+
+ private:
+  friend void* detail::cuda_scratch(const Context& context, std::size_t num_bytes);
+
+  struct State;
+  std::shared_ptr<State> state_;
+};
+
+/// True if this build has CUDA and a usable device is present. Never throws; `reason`, if given, receives why not.
+bool cuda_available(std::string* reason = nullptr);
+
+/// Adds the lifetime of this object to the context's trace under a name. Free without a trace.
+class ScopedStage {
+ public:
+  ScopedStage(const Context& context, const char* name) : context_(context), name_(name) {}
+  ~ScopedStage();
+  ScopedStage(const ScopedStage&) = delete;
+  ScopedStage& operator=(const ScopedStage&) = delete;
+
+ private:
+  const Context& context_;
+  const char* name_;
+  Stopwatch watch_;
+};
+
+}  // namespace foothold

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Preconditions on the host: what a correct program never violates.
+#pragma once
+
+namespace foothold {
+
+/// Receives the text of a broken precondition, with its file and line. It may throw, log or end the process.
+using ContractHandler = void (*)(const char* condition, const char* file, int line);
+
+/// Replaces the handler of broken preconditions and returns the former one; nullptr restores the default, which throws ContractViolation.
+/// Thread-safe.
+ContractHandler set_contract_handler(ContractHandler handler);
+
+namespace detail {
+void contract_violated(const char* condition, const char* file, int line);
+}  // namespace detail
+
+}  // namespace foothold
+
+/// Calls the contract handler unless the condition holds. Host code only; stays on in release builds.
+#define FOOTHOLD_EXPECTS(condition)                                                      \
+  do {                                                                                   \
+    if (!(condition)) {                                                                  \
+      ::foothold::detail::contract_violated(#condition, __FILE__, __LINE__);             \
+    }                                                                                    \
+  } while (false)

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The CUDA executor: the verbs of cpu_executor.h as kernels on the context's stream. Included by .cu files only.
+#pragma once
+
+#include <cub/device/device_radix_sort.cuh>
+#include <cub/device/device_scan.cuh>
+
+#include <cstddef>
+#include <cstdint>
+
+#include "foothold/base/array.h"
+#include "foothold/base/context.h"
+#include "foothold/base/error.h"
+#include "foothold/base/span.h"
+
+namespace foothold {
+
+namespace detail {
+/// @throws CudaError with the call's text if it failed.
+void check_cuda(cudaError_t status, const char* call, const char* file, int line);
+}  // namespace detail
+
+#define FOOTHOLD_CUDA_CHECK(call) ::foothold::detail::check_cuda((call), #call, __FILE__, __LINE__)
+
+/// The lanes of one thread block.
+struct CudaTeam {
+  static constexpr int kSize = 128;
+
+  __device__ static int lane() { return static_cast<int>(threadIdx.x); }
+  __device__ static constexpr int size() { return kSize; }
+  __device__ static void sync() { __syncthreads(); }
+
+  template <class T>
+  __device__ static T sum(T value) {
+    sum_all(&value, 1);
+    return value;
+  }
+
+  /// Fixed-order tree over warps: the result does not depend on scheduling.
+  template <class T>
+  __device__ static void sum_all(T* values, int count) {
+    constexpr int kWarps = kSize / 32;
+    __shared__ T partial[kWarps];
+    for (int k = 0; k < count; ++k) {
+      T value = values[k];
+      for (int offset = 16; offset > 0; offset /= 2) value += __shfl_down_sync(0xffffffffU, value, offset);
+      if (lane() % 32 == 0) partial[lane() / 32] = value;
+      __syncthreads();
+      T total = partial[0];
+      for (int w = 1; w < kWarps; ++w) total += partial[w];
+      values[k] = total;
+      __syncthreads();
+    }
+  }
+
+  __device__ static int fetch_add(int& counter, int value) { return atomicAdd(&counter, value); }
+};
+
+namespace detail {
+template <class Body>
+__global__ void for_each_kernel(std::size_t n, Body body) {
+  const std::size_t i = static_cast<std::size_t>(blockIdx.x) * blockDim.x + threadIdx.x;
+  if (i < n) body(i);
+}
+
+template <class Scratch, class Body>
+__global__ void __launch_bounds__(CudaTeam::kSize) for_each_team_kernel(Body body) {
+  __shared__ __align__(16) unsigned char bytes[sizeof(Scratch)];
+  body(CudaTeam{}, *reinterpret_cast<Scratch*>(bytes), static_cast<std::size_t>(blockIdx.x));
+}
+}  // namespace detail
+
+class CudaExecutor {
+ public:
+  using Team = CudaTeam;
+  static constexpr Device kDevice = Device::kCuda;
+  static constexpr MemoryKind kMemory = MemoryKind::kCuda;
+  static constexpr int kVectorWidth = 1;
+
+  explicit CudaExecutor(const Context& context) : context_(context), stream_(static_cast<cudaStream_t>(context.stream())) {}
+
+  template <class Body>
+  void for_each(std::size_t n, const Body& body) const {
+    if (n == 0) return;
+    constexpr unsigned kBlock = 128;
+    detail::for_each_kernel<<<static_cast<unsigned>((n + kBlock - 1) / kBlock), kBlock, 0, stream_>>>(n, body);
+    FOOTHOLD_CUDA_CHECK(cudaGetLastError());
+  }
+
+  template <class Scratch, class Body>
+  void for_each_team(std::size_t n, const Body& body) const {
+    if (n == 0) return;
+    detail::for_each_team_kernel<Scratch><<<static_cast<unsigned>(n), CudaTeam::kSize, 0, stream_>>>(body);
+    FOOTHOLD_CUDA_CHECK(cudaGetLastError());
+  }
+
+  void exclusive_scan(Span<const std::uint32_t> in, Span<std::uint32_t> out) const {
+    // A scan over n + 1 elements would read one too many: the total is the last prefix plus the last element.
+    FOOTHOLD_CUDA_CHECK(cudaMemsetAsync(out.data(), 0, sizeof(std::uint32_t), stream_));
+    std::size_t num_bytes = 0;
+    const auto scan = [&](void* scratch) {
+      return cub::DeviceScan::InclusiveSum(scratch, num_bytes, in.data(), out.data() + 1, in.size(), stream_);
+    };
+    FOOTHOLD_CUDA_CHECK(scan(nullptr));
+    FOOTHOLD_CUDA_CHECK(scan(detail::cuda_scratch(context_, num_bytes)));
+  }
+
+  void sort(Span<std::uint64_t> keys, Array<std::uint64_t>& buffer, int low_bit, int high_bit) const {
+    buffer.resize(keys.size());
+    cub::DoubleBuffer<std::uint64_t> both(keys.data(), buffer.data());
+    std::size_t num_bytes = 0;
+    const auto sort_keys = [&](void* scratch) {
+      return cub::DeviceRadixSort::SortKeys(scratch, num_bytes, both, keys.size(), low_bit, high_bit, stream_);
+    };
+    FOOTHOLD_CUDA_CHECK(sort_keys(nullptr));
+    FOOTHOLD_CUDA_CHECK(sort_keys(detail::cuda_scratch(context_, num_bytes)));
+    if (both.Current() != keys.data()) {
+      FOOTHOLD_CUDA_CHECK(cudaMemcpyAsync(keys.data(), both.Current(), keys.size() * sizeof(std::uint64_t), cudaMemcpyDeviceToDevice, stream_));
+    }
+  }
+
+  void synchronise() const { FOOTHOLD_CUDA_CHECK(cudaStreamSynchronize(stream_)); }
+
+ private:
+  const Context& context_;
+  cudaStream_t stream_;
+};
+
+}  // namespace foothold

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What differs between compilers and processors: the marks that let one function body serve host and device.
+#pragma once
+
+#if defined(__CUDACC__)
+#define FOOTHOLD_HD __host__ __device__
+#else
+/// Marks a function that both the host and the CUDA compiler build.
+#define FOOTHOLD_HD
+#endif
+
+#if defined(__GNUC__) && !defined(__CUDACC__)
+#define FOOTHOLD_INLINE inline __attribute__((always_inline))
+#elif defined(__CUDACC__)
+#define FOOTHOLD_INLINE __forceinline__
+#else
+/// Asks for inlining where a call would hide a loop from the vectoriser.
+#define FOOTHOLD_INLINE inline
+#endif
+
+namespace foothold {
+
+/// Where a computation runs.
+enum class Device { kCpu, kCuda };
+
+/// Where memory lives: host pointers must never be read by a kernel, nor CUDA pointers by the host.
+enum class MemoryKind { kHost, kCuda };
+
+/// The memory that a device's kernels work on.
+constexpr MemoryKind memory_of(Device device) { return device == Device::kCpu ? MemoryKind::kHost : MemoryKind::kCuda; }
+
+}  // namespace foothold

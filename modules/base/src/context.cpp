@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/base/context.h"
+
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "cuda_backend.h"
+#include "foothold/base/error.h"
+
+namespace foothold {
+
+struct Context::State {
+  ContextOptions options;
+  oneapi::tbb::task_arena arena;
+  std::unique_ptr<detail::CudaStream> cuda;
+};
+
+Context::Context(const ContextOptions& options) {
+  constexpr int kMaxThreads = 1024;
+  if (options.num_threads < 0 || options.num_threads > kMaxThreads) {
+    throw InvalidSettings("setting num_threads: got " + std::to_string(options.num_threads) + ", expected a value in [0, 1024]");
+  }
+  state_ = std::make_shared<State>();
+  state_->options = options;
+  if (options.num_threads == 0) state_->options.num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  state_->arena.initialize(state_->options.num_threads);
+  if (options.device == Device::kCuda) state_->cuda = detail::make_cuda_stream();
+}
+
+Device Context::device() const { return state_->options.device; }
+int Context::num_threads() const { return state_->options.num_threads; }
+Trace* Context::trace() const { return state_->options.trace; }
+void* Context::stream() const { return state_->cuda ? state_->cuda->stream() : nullptr; }
+void* Context::arena() const { return &state_->arena; }
+
+void Context::log(LogLevel level, const std::string& message) const {
+  if (state_->options.log) state_->options.log(level, message);
+}
+
+void Context::synchronise() const {
+  if (state_->cuda) state_->cuda->synchronise();
+}
+
+void* detail::cuda_scratch(const Context& context, std::size_t num_bytes) { return context.state_->cuda->scratch(num_bytes); }
+
+bool cuda_available(std::string* reason) { return detail::cuda_backend_available(reason); }
+
+ScopedStage::~ScopedStage() {
+  if (context_.trace() == nullptr) return;
+  try {
+    context_.synchronise();
+    context_.trace()->add(name_, watch_.elapsed_ms());
+  } catch (...) {  // A failing device is reported by the next call that may throw.
+  }
+}
+
+}  // namespace foothold
