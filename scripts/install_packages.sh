@@ -1,0 +1,60 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The Foothold authors
+#
+# Installs what Foothold needs from Debian's or Ubuntu's packages. Does nothing, at once, when all of it is there.
+#
+#   scripts/install_packages.sh [--developer]
+#
+# --developer adds clang-format-14 and clang-tidy-14, which tests/checks uses where present.
+# Needs root or sudo only if something is missing. CUDA is optional and never installed by this script.
+set -euo pipefail
+
+packages=(
+  build-essential cmake ninja-build ccache pkg-config                       # to build
+  libeigen3-dev libtbb-dev                                                  # the libraries
+  libopencv-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libopenni2-dev  # reading sequences, cameras, and the apps
+  catch2 python3 xvfb xauth                                                 # the tests
+)
+case "${1:-}" in
+  "") ;;
+  --developer) packages+=(clang-format-14 clang-tidy-14) ;;
+  *) echo "usage: $0 [--developer]; got '$1'" >&2; exit 2 ;;
+esac
+
+if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+  echo "install_packages: this is not Debian or Ubuntu; continuing, please see to it that these are installed: ${packages[*]}" >&2
+  exit 0
+fi
+
+missing=()
+installed=" $(dpkg-query --show --showformat='${Package}:${db:Status-Status} ' "${packages[@]}" 2>/dev/null || true)"
+for package in "${packages[@]}"; do
+  [[ $installed == *" $package:installed "* ]] || missing+=("$package")
+done
+[[ ${#missing[@]} -eq 0 ]] && exit 0
+
+as_root=()
+if [[ $(id -u) -ne 0 ]]; then
+  if ! command -v sudo >/dev/null; then
+    echo "install_packages: root or sudo is needed to install: ${missing[*]}" >&2
+    exit 1
+  fi
+  as_root=(sudo)
+  [[ -t 0 ]] || as_root=(sudo --non-interactive)  # nobody is there to type a password
+fi
+
+install() {
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --yes --quiet --no-install-recommends "${missing[@]}" </dev/null
+}
+echo "install_packages: installing ${missing[*]} (a few minutes on a bare machine)"
+# Package lists may be absent or stale; refreshing them costs time only when that shows.
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+if ! install >"$log" 2>&1; then
+  "${as_root[@]}" apt-get update --quiet </dev/null
+  if ! install; then
+    echo "install_packages: could not install ${missing[*]}" >&2
+    exit 1
+  fi
+fi
