@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/evaluation/novelty.h"
+
+#include <algorithm>
+
+namespace foothold {
+
+const std::vector<PoseThreshold>& novelty_limits() {
+  static const std::vector<PoseThreshold> limits = [] {
+    std::vector<PoseThreshold> result;
+    for (int step = 1; step <= 10; ++step) result.push_back({0.05 * step, 5.0 * step});
+    return result;
+  }();
+  return limits;
+}
+
+std::size_t novelty_bin_of(const SE3& world_from_camera, Span<const SE3> trained_world_from_camera) {
+  const std::vector<PoseThreshold>& limits = novelty_limits();
+  std::size_t bin = limits.size();
+  for (const SE3& trained : trained_world_from_camera) {
+    const PoseError error = pose_error(world_from_camera, trained);
+    while (bin > 0 && limits[bin - 1].contains(error)) --bin;  // limits grow, so the first that holds is found from above
+  }
+  return bin;
+}
+
+std::vector<NoveltyBin> novelty_bins(const RunLog& log) {
+  const std::vector<PoseThreshold>& limits = novelty_limits();
+  std::vector<NoveltyBin> bins(limits.size() + 1);
+  for (std::size_t i = 0; i < limits.size(); ++i) bins[i].limit = limits[i];
+  bins.back().is_rest = true;
+  for (const TestRecord& test : log.tests) {
+    NoveltyBin& bin = bins[novelty_bin_of(test.world_from_camera_true, log.trained_world_from_camera)];
+    ++bin.num_frames;
+    bin.num_found += test.within(kFoundThreshold) ? 1 : 0;
+  }
+  for (NoveltyBin& bin : bins) bin.recall_95 = wilson_interval(bin.num_found, bin.num_frames);
+  return bins;
+}
+
+}  // namespace foothold
