@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/io/image_file.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <string_view>
+#include <vector>
+
+#include "foothold/base/camera.h"
+#include "foothold/io/atomic_file.h"
+#include "text_file.h"
+
+namespace foothold {
+namespace {
+
+constexpr std::size_t kMaxImageBytes = 512U << 20U;
+/// zlib's fastest setting: files grow by a tenth, writing is several times faster.
+constexpr int kPngCompression = 1;
+
+/// What is wrong with the outer shape of an image file; empty if it begins and ends as it should. Decoders fill in what is missing, so
+/// that a file cut short would otherwise pass as an image with a grey lower half.
+std::string describe_image_error(std::string_view bytes) {
+  using namespace std::string_view_literals;
+  constexpr std::string_view kPngBegin = "\x89PNG\r\n\x1a\n"sv;
+  constexpr std::string_view kPngEnd = "\0\0\0\0IEND\xae\x42\x60\x82"sv;
+  constexpr std::string_view kJpegBegin = "\xff\xd8\xff"sv;
+  constexpr std::string_view kJpegEnd = "\xff\xd9"sv;
+  const auto begins_with = [&](std::string_view text) { return bytes.substr(0, text.size()) == text; };
+  if (bytes.empty()) return "an empty file";
+  if (begins_with(kPngBegin)) return bytes.rfind(kPngEnd) == std::string_view::npos ? "a PNG image cut short" : "";
+  if (begins_with(kJpegBegin)) {
+    constexpr std::size_t kPadding = 4096;  // some cameras pad their files
+    return bytes.substr(bytes.size() - std::min(bytes.size(), kPadding)).rfind(kJpegEnd) == std::string_view::npos
+               ? "a JPEG image cut short"
+               : "";
+  }
+  return "a file that begins with neither the PNG nor the JPEG signature";
+}
+
+cv::Mat decode(const std::string& path, int flags) {
+  std::string bytes = io::read_file(path, kMaxImageBytes);
+  constexpr const char* kExpected = "a complete PNG or JPEG image";
+  if (const std::string error = describe_image_error(bytes); !error.empty()) io::throw_file_error(path, error, kExpected);
+  cv::Mat image;
+  try {
+    image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data()), flags);
+  } catch (const cv::Exception& exception) {
+    io::throw_file_error(path, "an image that cannot be decoded (" + std::string(exception.err) + ")", kExpected);
+  }
+  if (image.empty()) io::throw_file_error(path, "a damaged image", kExpected);
+  return image;
+}
+
+void encode(const std::string& path, const cv::Mat& image) {
+  std::vector<unsigned char> bytes;
+  try {
+    if (!cv::imencode(".png", image, bytes, {cv::IMWRITE_PNG_COMPRESSION, kPngCompression})) bytes.clear();
+  } catch (const cv::Exception& exception) {
+    throw FileError(path + ": cannot be encoded as PNG: " + exception.err);
+  }
+  if (bytes.empty()) throw FileError(path + ": cannot be encoded as PNG");
+  write_file_atomically(path, std::string(bytes.begin(), bytes.end()));
+}
+
+/// A colour map whose lightness falls evenly from yellow over green and blue to violet (after viridis), at x in [0, 1].
+Rgb8 depth_colour(float x) {
+  constexpr int kNumStops = 6;
+  constexpr std::array<std::array<float, 3>, kNumStops> kStops{
+      {{253, 231, 37}, {122, 209, 81}, {34, 168, 132}, {42, 120, 142}, {65, 68, 135}, {68, 1, 84}}};
+  const float position = std::clamp(x, 0.0F, 1.0F) * (kNumStops - 1);
+  const auto stop = static_cast<std::size_t>(std::min(static_cast<int>(position), kNumStops - 2));
+  const float t = position - static_cast<float>(stop);
+  const auto mix = [&](std::size_t channel) {
+    return static_cast<std::uint8_t>(std::lround((1.0F - t) * kStops[stop][channel] + t * kStops[stop + 1][channel]));
+  };
+  return {mix(0), mix(1), mix(2)};
+}
+
+}  // namespace
+
+Image<Rgb8> read_rgb_image(const std::string& path) {
+  const cv::Mat bgr = decode(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  Image<Rgb8> image(bgr.cols, bgr.rows);
+  for (int v = 0; v < bgr.rows; ++v) {
+    const auto* row = bgr.ptr<unsigned char>(v);
+    Rgb8* out = image.data() + static_cast<std::size_t>(v) * static_cast<std::size_t>(bgr.cols);
+    for (int u = 0; u < bgr.cols; ++u) out[u] = {row[3 * u + 2], row[3 * u + 1], row[3 * u]};
+  }
+  return image;
+}
+
+Image<std::uint16_t> read_u16_image(const std::string& path) {
+  const cv::Mat mat = decode(path, cv::IMREAD_UNCHANGED);
+  if (mat.type() != CV_16UC1) {
+    io::throw_file_error(path, std::to_string(mat.channels()) + " channel(s) of " + std::to_string(8 * mat.elemSize1()) + " bits",
+                         "one channel of 16 bits");
+  }
+  Image<std::uint16_t> image(mat.cols, mat.rows);
+  for (int v = 0; v < mat.rows; ++v) std::copy_n(mat.ptr<std::uint16_t>(v), mat.cols, &image(0, v));
+  return image;
+}
+
+void write_png(const std::string& path, const Image<Rgb8>& image) {
+  cv::Mat bgr(image.height(), image.width(), CV_8UC3);
+  for (int v = 0; v < image.height(); ++v) {
+    auto* row = bgr.ptr<unsigned char>(v);
+    for (int u = 0; u < image.width(); ++u) {
+      const Rgb8 pixel = image(u, v);
+      row[3 * u] = pixel.b;
+      row[3 * u + 1] = pixel.g;
+      row[3 * u + 2] = pixel.r;
+    }
+  }
+  encode(path, bgr);
+}
+
+void write_png(const std::string& path, const Image<std::uint16_t>& image) {
+  // OpenCV wants a mutable pointer even to encode; it does not write through it.
+  encode(path, cv::Mat(image.height(), image.width(), CV_16UC1, const_cast<std::uint16_t*>(image.data())));
+}
+
+void write_png(const std::string& path, const Image<float>& depth_m) { write_png(path, colourise_depth(depth_m)); }
+
+Image<Rgb8> colourise_depth(const Image<float>& depth_m, float near_m, float far_m) {
+  FOOTHOLD_EXPECTS(near_m < far_m);
+  Image<Rgb8> image(depth_m.width(), depth_m.height());
+  std::transform(depth_m.data(), depth_m.data() + depth_m.size(), image.data(),
+                 [&](float z) { return is_valid_depth(z) ? depth_colour((z - near_m) / (far_m - near_m)) : Rgb8{}; });
+  return image;
+}
+
+}  // namespace foothold

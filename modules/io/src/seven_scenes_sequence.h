@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// A recording in the layout of 7-Scenes [Shotton2013].
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "foothold/io/sequence.h"
+
+namespace foothold::io {
+
+/// True if a folder holds files of this layout, whole or not.
+bool looks_like_seven_scenes(const std::filesystem::path& folder);
+
+/// Opens a folder of frame-NNNNNN.{color.png|color.jpg,depth.png,pose.txt}, numbered from 0 without gaps. Every frame has a pose, or none
+/// has. timestamps.txt, if present, holds a line "index ... time [s]" for each frame; else frames are 1/30 s apart.
+/// @throws FileError naming the first file that is missing.
+std::unique_ptr<Sequence> open_seven_scenes(const std::filesystem::path& folder, const SequenceOptions& options);
+
+}  // namespace foothold::io

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Reading small text files, with messages that name file, value and expectation.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "foothold/base/error.h"
+
+namespace foothold::io {
+
+/// Throws FileError "file: got <found>, expected <expected>".
+[[noreturn]] void throw_file_error(const std::filesystem::path& file, const std::string& found, const std::string& expected);
+
+/// The bytes of a file. @throws FileError if it cannot be opened or is larger than `max_bytes`.
+std::string read_file(const std::filesystem::path& file, std::size_t max_bytes);
+
+/// Text from outside, made fit for a message: quoted, without control characters, and cut when long.
+std::string quoted(std::string_view text);
+
+/// The words of a text, separated by blanks and line ends.
+std::vector<std::string_view> split_words(std::string_view text);
+
+/// A line of a list, with its number for messages.
+struct TextLine {
+  int number = 0;  ///< 1 for the first
+  std::vector<std::string_view> words;
+};
+
+/// The lines of a text that hold words and do not begin with '#'.
+std::vector<TextLine> split_lines(std::string_view text);
+
+/// Parses a finite number. @param what  what the number is, for the message. @throws FileError
+double parse_number(std::string_view word, const std::filesystem::path& file, const std::string& what);
+
+/// Parses a text of exactly `count` finite numbers. @param what  such as "4x4 pose". @throws FileError
+std::vector<double> parse_numbers(std::string_view text, std::size_t count, const std::filesystem::path& file, const std::string& what);
+
+/// Largest size of a file of a few numbers [bytes]; more is the wrong file.
+inline constexpr std::size_t kMaxNumbersFileBytes = 64U << 10U;
+/// Largest size of a list of frames or a JSON file [bytes].
+inline constexpr std::size_t kMaxListFileBytes = 256U << 20U;
+
+}  // namespace foothold::io
