@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What the main() of every app does: parse arguments, run, turn exceptions into messages and exit codes, heed Ctrl-C.
+#pragma once
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <functional>
+#include <string>
+
+#include "foothold/base/context.h"
+
+namespace foothold::apps {
+
+/// What an app's process returns.
+enum ExitCode : int {
+  kSuccess = 0,
+  kBug = 1,           ///< an unexpected exception
+  kUserError = 2,     ///< wrong arguments, settings, files or devices: the message says what was expected
+  kInterrupted = 130  ///< Ctrl-C, as shells have it
+};
+
+/// Parses the command line and calls `body`. Call it last in main() and return its result.
+///
+/// Wrong arguments and exceptions derived from foothold::Error are reported on stderr and give kUserError; any other exception gives kBug.
+/// From then on Ctrl-C makes interrupted() true; a second one kills the process.
+int run_app(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
+
+/// True once the user has pressed Ctrl-C. Long loops ask it, tidy up and return kInterrupted.
+bool interrupted();
+
+/// Prints the library's messages on stderr, for ContextOptions::log.
+LogSink log_to_stderr();
+
+/// Where to compute, as every app's options say it.
+struct DeviceOptions {
+  std::string device = "cpu";
+  int num_threads = 0;
+};
+
+/// Adds --device cpu|cuda and --threads N. The options must live as long as the app.
+void add_device_options(CLI::App& app, DeviceOptions& options);
+
+/// The context that the options ask for, logging to stderr. @throws InvalidSettings, DeviceError
+Context make_context(const DeviceOptions& options, Trace* trace = nullptr);
+
+}  // namespace foothold::apps
