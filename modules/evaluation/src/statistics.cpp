@@ -20,7 +20,7 @@ Interval wilson_interval(int num_successes, int num_trials, double z) {
   const double z2 = z * z;
   const double centre = (p + z2 / (2.0 * n)) / (1.0 + z2 / n);
   const double half_width = z / (1.0 + z2 / n) * std::sqrt(p * (1.0 - p) / n + z2 / (4.0 * n * n));
-  return {std::max(0.0, centre - half_width), std::min(1.0, centre + half_width)};
+  return {std::clamp(centre - half_width, 0.0, p), std::clamp(centre + half_width, p, 1.0)};  // rounding must not exclude p itself
 }
 
 double roc_area(const std::vector<double>& scores, const std::vector<bool>& right) {
