@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/relocalisation/keyframe_relocaliser.h"
+
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "foothold/base/error.h"
+#include "foothold/base/settings.h"
+#include "keyframe/fern_encoder.h"
+#include "support/catch.h"
+#include "support/error_message.h"
+#include "support/random_seed.h"
+
+namespace foothold {
+namespace {
+
+/// Single precision over sums of a few hundred terms.
+constexpr float kTolerance = 1e-4F;
+
+/// A smooth random relief between about 1 and 3 m.
+Image<float> random_relief(Random& random, int width, int height) {
+  Image<float> depth(width, height, 2.0F);
+  for (int wave = 0; wave < 6; ++wave) {
+    const float fx = random.uniform(-9.0F, 9.0F) / static_cast<float>(width);
+    const float fy = random.uniform(-9.0F, 9.0F) / static_cast<float>(height);
+    const float phase = random.uniform(0.0F, 6.28F);
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < width; ++u) depth(u, v) += 0.2F * std::sin(fx * static_cast<float>(u) + fy * static_cast<float>(v) + phase);
+    }
+  }
+  return depth;
+}
+
+/// Frames of constant colour with their poses.
+struct Fixture {
+  explicit Fixture(const KeyframeRelocaliserSettings& settings = {}) : relocaliser(Context(ContextOptions{}), settings) {}
+
+  Frame frame(const Image<float>& depth) {
+    colour = Image<Rgb8>(depth.width(), depth.height());
+    Frame result;
+    result.depth = depth.view();
+    result.colour = colour_view(colour);
+    result.calibration.depth = result.calibration.colour = {585.0F, 585.0F, 320.0F, 240.0F};
+    return result;
+  }
+  static SE3 pose(float x_m) {
+    SE3 result;
+    result.translation.x() = x_m;
+    return result;
+  }
+
+  Image<Rgb8> colour;
+  KeyframeRelocaliser relocaliser;
+};
+
+TEST_CASE("halve_depth: is the mean of the valid pixels among four") {
+  Random random = test::test_random();
+  Image<float> depth(13, 7);
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const std::uint32_t kind = random.below(4);
+    const float holes[] = {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()};
+    depth.data()[i] = kind < 3 ? holes[kind] : random.uniform(0.5F, 4.0F);
+  }
+  std::vector<float> scratch;
+  std::vector<float> half(6 * 3);
+  halve_depth(depth.view(), scratch, half.data());
+  for (int v = 0; v < 3; ++v) {
+    for (int u = 0; u < 6; ++u) {
+      double sum = 0.0;
+      int count = 0;
+      for (int k = 0; k < 4; ++k) {
+        const float d = depth(2 * u + k % 2, 2 * v + k / 2);
+        if (d > 0.0F) sum += d, ++count;
+      }
+      const double expected = count == 0 ? 0.0 : sum / count;
+      REQUIRE(half[static_cast<std::size_t>(v * 6 + u)] == Approx(expected).margin(kTolerance));
+    }
+  }
+}
+
+TEST_CASE("smooth_depth: is a Gaussian mean of the valid pixels in its window") {
+  Random random = test::test_random();
+  constexpr int kWidth = 11;
+  constexpr int kHeight = 8;
+  const std::vector<float> kernel = {0.2F, 0.7F, 1.0F, 0.7F, 0.2F};
+  Image<float> depth(kWidth, kHeight);
+  for (std::size_t i = 0; i < depth.size(); ++i) depth.data()[i] = random.below(3) == 0 ? random.uniform(0.5F, 4.0F) : 0.0F;
+  std::vector<float> smoothed(depth.data(), depth.data() + depth.size());
+  std::vector<float> scratch;
+  smooth_depth(kWidth, kHeight, kernel, smoothed, scratch);
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      double sum = 0.0;
+      double weights = 0.0;
+      for (int dv = -2; dv <= 2; ++dv) {
+        for (int du = -2; du <= 2; ++du) {
+          if (!depth.view().contains(u + du, v + dv) || depth(u + du, v + dv) <= 0.0F) continue;
+          const double weight = kernel[static_cast<std::size_t>(du + 2)] * kernel[static_cast<std::size_t>(dv + 2)];
+          sum += weight * depth(u + du, v + dv);
+          weights += weight;
+        }
+      }
+      REQUIRE(smoothed[static_cast<std::size_t>(v * kWidth + u)] == Approx(weights > 0.0 ? sum / weights : 0.0).margin(kTolerance));
+    }
+  }
+}
+
+TEST_CASE("count_different_ferns: counts groups of four bits that differ") {
+  Random random = test::test_random();
+  for (int repeat = 0; repeat < 100; ++repeat) {
+    std::uint64_t a[2];
+    std::uint64_t b[2];
+    int expected = 0;
+    for (int i = 0; i < 2; ++i) {
+      a[i] = (static_cast<std::uint64_t>(random.bits()) << 32U) | random.bits();
+      b[i] = a[i] ^ (((static_cast<std::uint64_t>(random.bits()) << 32U) | random.bits()) & random.bits());
+      for (unsigned shift = 0; shift < 64; shift += 4) expected += ((a[i] >> shift) & 15U) != ((b[i] >> shift) & 15U) ? 1 : 0;
+    }
+    REQUIRE(count_different_ferns(a, b, 2) == expected);
+  }
+}
+
+TEST_CASE("FernEncoder: sees every quarter of the image") {
+  FernEncoder encoder{KeyframeRelocaliserSettings{}};
+  const Image<float> flat(640, 480, 1.0F);
+  std::vector<std::uint64_t> flat_code(encoder.num_words());
+  REQUIRE(encoder.encode(flat.view(), flat_code));
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    Image<float> changed = flat;
+    for (int v = 0; v < 240; ++v) {
+      for (int u = 0; u < 320; ++u) changed(u + 320 * (quarter % 2), v + 240 * (quarter / 2)) = 3.9F;
+    }
+    std::vector<std::uint64_t> code(encoder.num_words());
+    REQUIRE(encoder.encode(changed.view(), code));
+    // A fern keeps its bits if none of its four tests lies in the quarter: 0.75^4 = 32 % of 500.
+    REQUIRE(count_different_ferns(flat_code.data(), code.data(), code.size()) > 250);
+  }
+}
+
+TEST_CASE("FernEncoder: codes of one view at different sizes are alike") {
+  Random random = test::test_random();
+  FernEncoder encoder{KeyframeRelocaliserSettings{}};
+  const Image<float> relief = random_relief(random, 640, 480);
+  std::vector<std::uint64_t> code(encoder.num_words());
+  REQUIRE(encoder.encode(relief.view(), code));
+  for (const int divisor : {2, 4, 16}) {
+    Image<float> small(640 / divisor, 480 / divisor);
+    for (int v = 0; v < small.height(); ++v) {
+      for (int u = 0; u < small.width(); ++u) small(u, v) = relief(u * divisor + divisor / 2, v * divisor + divisor / 2);
+    }
+    std::vector<std::uint64_t> small_code(encoder.num_words());
+    REQUIRE(encoder.encode(small.view(), small_code));
+    REQUIRE(count_different_ferns(code.data(), small_code.data(), code.size()) < 10);
+  }
+}
+
+TEST_CASE("FernEncoder: equal seeds place equal tests, other seeds others") {
+  Random random = test::test_random();
+  const Image<float> relief = random_relief(random, 640, 480);
+  KeyframeRelocaliserSettings settings;
+  FernEncoder first(settings);
+  FernEncoder second(settings);
+  settings.seed = 43;
+  FernEncoder other(settings);
+  std::vector<std::uint64_t> codes[3];
+  FernEncoder* encoders[] = {&first, &second, &other};
+  for (int i = 0; i < 3; ++i) {
+    codes[i].resize(first.num_words());
+    REQUIRE(encoders[i]->encode(relief.view(), codes[i]));
+  }
+  REQUIRE(codes[0] == codes[1]);
+  REQUIRE(codes[0] != codes[2]);
+}
+
+TEST_CASE("KeyframeRelocaliser: proposes the pose of the most similar keyframe") {
+  Random random = test::test_random();
+  Fixture fixture;
+  std::vector<Image<float>> reliefs;
+  for (int i = 0; i < 8; ++i) {
+    reliefs.push_back(random_relief(random, 640, 480));
+    fixture.relocaliser.train(fixture.frame(reliefs.back()), Fixture::pose(static_cast<float>(i)));
+  }
+  REQUIRE(fixture.relocaliser.num_keyframes() == 8);
+  for (int i = 0; i < 8; ++i) {
+    Image<float> noisy = reliefs[static_cast<std::size_t>(i)];
+    for (std::size_t k = 0; k < noisy.size(); ++k) noisy.data()[k] *= random.uniform(0.97F, 1.03F);
+    const auto estimates = fixture.relocaliser.relocalise(fixture.frame(noisy));
+    REQUIRE(estimates.size() == 1);
+    REQUIRE(estimates[0].world_from_camera.translation.x() == static_cast<float>(i));
+    REQUIRE(estimates[0].confidence >= fixture.relocaliser.acceptance_threshold());
+  }
+  const auto stranger = fixture.relocaliser.relocalise(fixture.frame(random_relief(random, 640, 480)));
+  REQUIRE(stranger.size() == 1);
+  REQUIRE(stranger[0].confidence < fixture.relocaliser.acceptance_threshold());
+}
+
+TEST_CASE("KeyframeRelocaliser: keeps a frame only if no keyframe resembles it") {
+  Random random = test::test_random();
+  Fixture fixture;
+  const Image<float> relief = random_relief(random, 640, 480);
+  fixture.relocaliser.train(fixture.frame(relief), Fixture::pose(1.0F));
+  fixture.relocaliser.train(fixture.frame(relief), Fixture::pose(2.0F));
+  REQUIRE(fixture.relocaliser.num_keyframes() == 1);
+
+  KeyframeRelocaliserSettings settings;
+  settings.harvest_dissimilarity = 0.0F;
+  settings.max_keyframes = 3;
+  Fixture greedy(settings);
+  for (int i = 0; i < 5; ++i) greedy.relocaliser.train(greedy.frame(relief), Fixture::pose(static_cast<float>(i)));
+  REQUIRE(greedy.relocaliser.num_keyframes() == 3);
+}
+
+TEST_CASE("KeyframeRelocaliser: orders further candidates by similarity") {
+  Random random = test::test_random();
+  KeyframeRelocaliserSettings settings;
+  settings.num_candidates = 3;
+  Fixture fixture(settings);
+  const Image<float> relief = random_relief(random, 640, 480);
+  for (const float offset_m : {0.9F, 0.0F, 0.5F, 1.4F}) {
+    Image<float> further = relief;
+    for (std::size_t i = 0; i < further.size(); ++i) further.data()[i] += offset_m;
+    fixture.relocaliser.train(fixture.frame(further), Fixture::pose(offset_m));
+  }
+  const auto estimates = fixture.relocaliser.relocalise(fixture.frame(relief));
+  REQUIRE(estimates.size() == 3);
+  REQUIRE(estimates[0].world_from_camera.translation.x() == 0.0F);
+  REQUIRE(estimates[1].world_from_camera.translation.x() == 0.5F);
+  REQUIRE(estimates[2].world_from_camera.translation.x() == 0.9F);
+  REQUIRE(estimates[0].confidence > estimates[1].confidence);
+  REQUIRE(estimates[1].confidence > estimates[2].confidence);
+}
+
+TEST_CASE("KeyframeRelocaliser: knows nothing before training, and nothing from blank depth") {
+  Random random = test::test_random();
+  Fixture fixture;
+  const Image<float> relief = random_relief(random, 640, 480);
+  REQUIRE(fixture.relocaliser.relocalise(fixture.frame(relief)).empty());
+  for (const float hole : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    const Image<float> blank(640, 480, hole);
+    fixture.relocaliser.train(fixture.frame(blank), SE3{});
+    REQUIRE(fixture.relocaliser.num_keyframes() == 0);
+    REQUIRE(fixture.relocaliser.state_bytes() == 0);
+  }
+  fixture.relocaliser.train(fixture.frame(relief), SE3{});
+  REQUIRE(fixture.relocaliser.relocalise(fixture.frame(Image<float>(640, 480, 0.0F))).empty());
+}
+
+TEST_CASE("KeyframeRelocaliser: reset forgets the scene and its memory") {
+  Random random = test::test_random();
+  Fixture fixture;
+  const Image<float> relief = random_relief(random, 640, 480);
+  fixture.relocaliser.train(fixture.frame(relief), SE3{});
+  REQUIRE(fixture.relocaliser.state_bytes() >= 256 + sizeof(SE3));
+  fixture.relocaliser.reset();
+  REQUIRE(fixture.relocaliser.state_bytes() == 0);
+  REQUIRE(fixture.relocaliser.relocalise(fixture.frame(relief)).empty());
+}
+
+TEST_CASE("KeyframeRelocaliser: a saved scene reads back alike") {
+  Random random = test::test_random();
+  Fixture fixture;
+  std::vector<Image<float>> reliefs;
+  for (int i = 0; i < 5; ++i) {
+    reliefs.push_back(random_relief(random, 640, 480));
+    fixture.relocaliser.train(fixture.frame(reliefs.back()), Fixture::pose(static_cast<float>(i)));
+  }
+  std::stringstream stream;
+  fixture.relocaliser.save(stream);
+  Fixture restored;
+  restored.relocaliser.load(stream);
+  REQUIRE(restored.relocaliser.num_keyframes() == 5);
+  for (const Image<float>& relief : reliefs) {
+    const auto before = fixture.relocaliser.relocalise(fixture.frame(relief));
+    const auto after = restored.relocaliser.relocalise(restored.frame(relief));
+    REQUIRE(before[0].world_from_camera.translation == after[0].world_from_camera.translation);
+    REQUIRE(before[0].confidence == after[0].confidence);
+  }
+}
+
+TEST_CASE("KeyframeRelocaliser: refuses a damaged scene and keeps its own") {
+  Random random = test::test_random();
+  Fixture fixture;
+  fixture.relocaliser.train(fixture.frame(random_relief(random, 640, 480)), SE3{});
+  std::stringstream stream;
+  fixture.relocaliser.save(stream);
+  const std::string good = stream.str();
+  for (std::size_t position = 0; position < good.size(); ++position) {
+    std::string flipped = good;
+    flipped[position] = static_cast<char>(flipped[position] ^ 0x40);
+    std::istringstream damaged(flipped);
+    REQUIRE_THROWS_AS(fixture.relocaliser.load(damaged), FileError);
+    std::istringstream truncated(good.substr(0, position));
+    REQUIRE_THROWS_AS(fixture.relocaliser.load(truncated), FileError);
+    REQUIRE(fixture.relocaliser.num_keyframes() == 1);
+  }
+}
+
+TEST_CASE("KeyframeRelocaliser: refuses a scene of other ferns, and a stream that cannot be written") {
+  KeyframeRelocaliserSettings settings;
+  settings.seed = 7;
+  Fixture other(settings);
+  std::stringstream stream;
+  other.relocaliser.save(stream);
+  Fixture fixture;
+  const std::string message = test::error_message<FileError>([&] { fixture.relocaliser.load(stream); });
+  REQUIRE(test::contains(message, "seed 7"));
+  REQUIRE(test::contains(message, "seed 42"));
+  std::ostringstream closed;
+  closed.setstate(std::ios::badbit);
+  REQUIRE_THROWS_AS(fixture.relocaliser.save(closed), FileError);
+}
+
+TEST_CASE("KeyframeRelocaliserSettings: the defaults are the published ones, and bad values are refused") {
+  const KeyframeRelocaliserSettings settings;
+  REQUIRE_NOTHROW(settings.validate());
+  REQUIRE(settings.num_ferns == 500);
+  REQUIRE(settings.encoded_width_px == 40);
+  REQUIRE(settings.smoothing_sigma_px == 2.5F);
+  REQUIRE(settings.harvest_dissimilarity == 0.2F);
+  REQUIRE(settings.num_candidates == 1);
+  KeyframeRelocaliserSettings bad;
+  bad.num_ferns = 0;
+  REQUIRE_THROWS_AS(Fixture(bad), InvalidSettings);
+  bad = {};
+  bad.min_threshold_m = bad.max_threshold_m;
+  REQUIRE_THROWS_AS(bad.validate(), InvalidSettings);
+}
+
+TEST_CASE("KeyframeRelocaliser: rejects callers' mistakes") {
+  Fixture fixture;
+  const Image<float> depth(640, 480, 1.0F);
+  Frame frame = fixture.frame(depth);
+  SE3 sheared;
+  sheared.rotation(0, 1) = 0.1F;
+  REQUIRE_THROWS_AS(fixture.relocaliser.train(frame, sheared), ContractViolation);
+  frame.colour.width = 320;
+  REQUIRE_THROWS_AS(fixture.relocaliser.relocalise(frame), ContractViolation);
+}
+
+}  // namespace
+}  // namespace foothold

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#pragma once
+
+#include <string>
+
+namespace foothold::test {
+
+/// What an exception of the given type says that `action` throws; empty if it throws none.
+template <class Exception, class Action>
+std::string error_message(const Action& action) {
+  try {
+    action();
+  } catch (const Exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// True if a text holds a part.
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace foothold::test
