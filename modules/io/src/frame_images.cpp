@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Foothold authors
 #include "frame_images.h"
 
+#include <algorithm>
+
 #include "foothold/io/image_file.h"
 #include "register_colour.h"
 #include "text_file.h"
@@ -32,9 +34,14 @@ void read_frame_images(const std::filesystem::path& colour_file, const std::file
   if (options.register_colour && needs_registration(frame.calibration)) register_colour(frame);
 }
 
-bool needs_registration(const RgbdCalibration& c) {
-  return c.colour.fx != c.depth.fx || c.colour.fy != c.depth.fy || c.colour.cx != c.depth.cx || c.colour.cy != c.depth.cy ||
-         !c.depth_from_colour.translation.isZero(0.0F) || !c.depth_from_colour.rotation.isIdentity(0.0F);
+bool same_calibration(const RgbdCalibration& a, const RgbdCalibration& b) {
+  const auto same = [](const Intrinsics& p, const Intrinsics& q) { return p.fx == q.fx && p.fy == q.fy && p.cx == q.cx && p.cy == q.cy; };
+  return same(a.depth, b.depth) && same(a.colour, b.colour) && a.depth_from_colour.rotation == b.depth_from_colour.rotation &&
+         a.depth_from_colour.translation == b.depth_from_colour.translation;
+}
+
+bool needs_registration(const RgbdCalibration& calibration) {
+  return !same_calibration(calibration, {calibration.depth, calibration.depth, SE3{}});
 }
 
 std::string recording_name(const std::filesystem::path& folder) {

@@ -8,8 +8,12 @@
 #include <filesystem>
 
 #include "foothold/base/contract.h"
+#ifdef FOOTHOLD_HAS_SYNTHETIC
+#include "foothold/synthetic/synthetic_sequence.h"
+#endif
 #include "seven_scenes_sequence.h"
 #include "text_file.h"
+#include "tum_sequence.h"
 
 namespace foothold {
 namespace {
@@ -54,15 +58,19 @@ std::shared_ptr<Sequence> take_part(std::shared_ptr<Sequence> whole, const Frame
                   "ICL-NUIM (associations.txt)");
 }
 
-std::shared_ptr<Sequence> open_folder(const fs::path& folder, const Context&, const SequenceOptions& options) {
+std::shared_ptr<Sequence> open_folder(const fs::path& folder, const Context& context, const SequenceOptions& options) {
   if (!fs::exists(folder)) throw FileError(folder.string() + ": no such folder; expected a recording's folder or synthetic:NAME");
   if (!fs::is_directory(folder)) io::throw_file_error(folder, "a file", "a recording's folder");
   if (io::looks_like_seven_scenes(folder)) return io::open_seven_scenes(folder, options);
+  if (io::looks_like_tum(folder)) return io::open_tum(folder, context, options);
   throw_unknown_folder(folder);
 }
 
 std::shared_ptr<Sequence> open_whole(const std::string& source, const Context& context, const SequenceOptions& options) {
   if (source.empty()) throw InvalidSettings("sequence: got an empty name, expected a recording's folder or synthetic:NAME");
+#ifdef FOOTHOLD_HAS_SYNTHETIC
+  if (is_synthetic_spec(source)) return make_synthetic_sequence(parse_synthetic_spec(source), context);
+#endif
   try {
     return open_folder(source, context, options);
   } catch (const fs::filesystem_error& error) {
@@ -83,7 +91,7 @@ std::size_t find_range(const std::string& spec) {
 
 FrameRange parse_frame_range(const std::string& text) {
   const auto fail = [&]() -> FrameRange {
-    throw InvalidSettings("frame range: got " + io::quoted(text) +
+    throw InvalidSettings("frame range: got " + io::in_quotes(text) +
                           ", expected A:B with 0 <= A < B, the last one excluded; either may be left out");
   };
   const auto parse = [&](std::string_view digits, int fallback) {

@@ -95,7 +95,7 @@ std::vector<double> read_timestamps(const fs::path& folder, std::size_t num_fram
     const std::string where = "line " + std::to_string(line.number);
     const double index = parse_number(line.words.front(), file, "the frame index in " + where);
     if (index != static_cast<double>(times_s.size()) || line.words.size() < 2) {
-      throw_file_error(file, quoted(line.words.front()) + " and " + std::to_string(line.words.size() - 1) + " numbers in " + where,
+      throw_file_error(file, in_quotes(line.words.front()) + " and " + std::to_string(line.words.size() - 1) + " numbers in " + where,
                        "frame index " + std::to_string(times_s.size()) + " and its time [s]");
     }
     times_s.push_back(parse_number(line.words.back(), file, "the time in " + where));

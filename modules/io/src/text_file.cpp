@@ -34,7 +34,7 @@ std::string read_file(const std::filesystem::path& file, std::size_t max_bytes) 
   return bytes;
 }
 
-std::string quoted(std::string_view text) {
+std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMaxLength = 60;
   std::string result = "'";
   for (const char c : text.substr(0, kMaxLength)) result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
@@ -70,7 +70,7 @@ double parse_number(std::string_view word, const std::filesystem::path& file, co
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool complete = !digits.empty() && error == std::errc() && end == digits.data() + digits.size();
-  if (!complete || !std::isfinite(value)) throw_file_error(file, quoted(word), "a finite number as " + what);
+  if (!complete || !std::isfinite(value)) throw_file_error(file, in_quotes(word), "a finite number as " + what);
   return value;
 }
 

@@ -20,7 +20,7 @@ namespace foothold::io {
 std::string read_file(const std::filesystem::path& file, std::size_t max_bytes);
 
 /// Text from outside, made fit for a message: quoted, without control characters, and cut when long.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
 /// The words of a text, separated by blanks and line ends.
 std::vector<std::string_view> split_words(std::string_view text);

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/io/seven_scenes_writer.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "foothold/base/contract.h"
+#include "foothold/base/error.h"
+#include "foothold/io/atomic_file.h"
+#include "foothold/io/image_file.h"
+#include "frame_images.h"
+#include "seven_scenes_sequence.h"
+
+namespace foothold {
+namespace {
+
+std::string number_text(float value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.9g", static_cast<double>(value));
+  return text.data();
+}
+
+std::string transform_text(const SE3& transform) {
+  std::string text;
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) text += number_text(transform.rotation(row, column)) + " ";
+    text += number_text(transform.translation(row)) + "\n";
+  }
+  return text + "0 0 0 1\n";
+}
+
+std::string intrinsics_text(const Intrinsics& k) {
+  return number_text(k.fx) + " 0 " + number_text(k.cx) + "\n0 " + number_text(k.fy) + " " + number_text(k.cy) + "\n0 0 1\n";
+}
+
+Image<std::uint16_t> depth_in_millimetres(const Image<float>& depth_m) {
+  Image<std::uint16_t> result(depth_m.width(), depth_m.height());
+  std::transform(depth_m.data(), depth_m.data() + depth_m.size(), result.data(), [](float z) {
+    const float millimetres = is_valid_depth(z) ? std::round(z * 1000.0F) : 0.0F;
+    return millimetres < 65535.0F ? static_cast<std::uint16_t>(millimetres) : std::uint16_t{0};  // 65535 means invalid
+  });
+  return result;
+}
+
+}  // namespace
+
+SevenScenesWriter::SevenScenesWriter(const std::string& folder) : folder_(folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder)) {
+    throw FileError(folder + ": cannot be created: " + (error ? error.message() : "a file of this name is in the way"));
+  }
+  if (io::looks_like_seven_scenes(folder))
+    throw FileError(folder + ": got a folder that holds frames already, expected a new or empty one");
+}
+
+void SevenScenesWriter::write(const RgbdFrame& frame) {
+  FOOTHOLD_EXPECTS(describe_frame_error(frame.view()).empty());
+  if (num_frames() == 0) {
+    width_ = frame.depth.width();
+    height_ = frame.depth.height();
+    has_poses_ = frame.world_from_camera.has_value();
+    calibration_ = frame.calibration;
+    write_calibration();
+  }
+  FOOTHOLD_EXPECTS(frame.depth.width() == width_ && frame.depth.height() == height_);
+  FOOTHOLD_EXPECTS(frame.world_from_camera.has_value() == has_poses_);
+  FOOTHOLD_EXPECTS(io::same_calibration(frame.calibration, calibration_));
+
+  std::array<char, 32> stem{};
+  std::snprintf(stem.data(), stem.size(), "frame-%06d", num_frames());
+  write_png(path(std::string(stem.data()) + ".color.png"), frame.colour);
+  write_png(path(std::string(stem.data()) + ".depth.png"), depth_in_millimetres(frame.depth));
+  if (has_poses_) write_file_atomically(path(std::string(stem.data()) + ".pose.txt"), transform_text(*frame.world_from_camera));
+  times_s_.push_back(frame.timestamp_s);
+}
+
+void SevenScenesWriter::finish() {
+  AtomicFile file(path("timestamps.txt"));
+  for (std::size_t i = 0; i < times_s_.size(); ++i) {
+    std::array<char, 64> line{};
+    file.stream().write(line.data(), std::snprintf(line.data(), line.size(), "%zu %.6f\n", i, times_s_[i]));
+  }
+  file.commit();
+}
+
+void SevenScenesWriter::write_calibration() const {
+  write_file_atomically(path("camera-intrinsics.txt"), intrinsics_text(calibration_.depth));
+  write_file_atomically(path("colour-intrinsics.txt"), intrinsics_text(calibration_.colour));
+  write_file_atomically(path("depth-from-colour.txt"), transform_text(calibration_.depth_from_colour));
+}
+
+std::string SevenScenesWriter::path(const std::string& name) const { return (std::filesystem::path(folder_) / name).string(); }
+
+}  // namespace foothold
