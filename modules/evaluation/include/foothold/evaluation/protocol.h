@@ -68,7 +68,7 @@ struct Progress {
 struct ProtocolOptions {
   /// The trace of the relocaliser's context, if it has one: the source of CallTimes::stages_ms. It is emptied.
   Trace* trace = nullptr;
-  /// Called after every frame, from the thread that runs the protocol.
+  /// Called after every frame, from the thread that runs the protocol. What it throws ends the run and passes through.
   std::function<void(const Progress&)> progress;
 };
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "methods.h"
+
+#include <algorithm>
+
+#include "foothold/base/error.h"
+#include "foothold/relocalisation/forest_relocaliser.h"
+
+namespace foothold::benchmark {
+namespace {
+
+std::vector<Method> list_methods() {
+  return {{"forest", "forest adapted online, tuned settings", true,
+           [](const Context& context, const MethodInputs& inputs) {
+             return std::make_unique<ForestRelocaliser>(context, *inputs.forest, inputs.settings.forest);
+           }},
+          {"paper", "forest adapted online, the paper's settings", true,
+           [](const Context& context, const MethodInputs& inputs) {
+             return std::make_unique<ForestRelocaliser>(context, *inputs.forest, inputs.settings.paper);
+           }},
+          {"ferns", "random ferns, the nearest keyframe's pose", false, [](const Context& context, const MethodInputs& inputs) {
+             return std::make_unique<KeyframeRelocaliser>(context, inputs.settings.ferns);
+           }}};
+}
+
+}  // namespace
+
+void set_seeds(BenchmarkSettings& settings, std::uint64_t seed) {
+  for (ForestRelocaliserSettings* forest : {&settings.forest, &settings.paper}) {
+    forest->seed = seed;
+    forest->pose.seed = seed;
+  }
+  settings.ferns.seed = seed;
+  settings.random_forest.seed = seed;
+}
+
+const std::vector<Method>& all_methods() {
+  static const std::vector<Method> methods = list_methods();
+  return methods;
+}
+
+std::vector<Method> find_methods(const std::vector<std::string>& names) {
+  std::vector<Method> found;
+  for (const std::string& name : names) {
+    const auto is_it = [&](const Method& method) { return method.name == name; };
+    const auto method = std::find_if(all_methods().begin(), all_methods().end(), is_it);
+    if (method == all_methods().end()) {
+      std::string known;
+      for (const Method& each : all_methods()) known += (known.empty() ? "" : ", ") + each.name;
+      throw InvalidSettings("--method: unknown method '" + name + "'; expected one or more of " + known);
+    }
+    if (std::any_of(found.begin(), found.end(), is_it))
+      throw InvalidSettings("--method: '" + name + "' is given twice; expected each once");
+    found.push_back(*method);
+  }
+  return found;
+}
+
+}  // namespace foothold::benchmark

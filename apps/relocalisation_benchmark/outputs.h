@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The forms in which a result is written. Files appear complete or not at all; docs/benchmark-json.md describes them.
+#pragma once
+
+#include <string>
+
+#include "options.h"
+#include "result.h"
+
+namespace foothold::benchmark {
+
+/// A Markdown table for people, a row per method.
+std::string summary_table(const BenchmarkResult& result);
+/// A Markdown table of recall against novelty, a row per bin and a column per method; empty if the result has no bins.
+std::string novelty_table(const BenchmarkResult& result);
+/// The result as a JSON document.
+std::string json_document(const BenchmarkResult& result);
+/// A line per tested frame and method.
+std::string csv_document(const BenchmarkResult& result);
+/// The poses of one method: a line per tested frame.
+std::string estimates_document(const BenchmarkResult& result, const MethodResult& method);
+
+/// Fails early if a file asked for cannot be written. @throws FileError
+void check_outputs(const CommonOptions& options);
+/// Writes the files asked for and returns a line for people about each. @throws FileError
+std::string write_outputs(const CommonOptions& options, const BenchmarkResult& result);
+
+}  // namespace foothold::benchmark

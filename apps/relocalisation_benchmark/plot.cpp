@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "plot.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "canvas.h"
+#include "foothold/base/contract.h"
+#include "foothold/evaluation/text_table.h"
+#include "foothold/io/image_file.h"
+#include "trajectory_map.h"
+
+namespace foothold::benchmark {
+namespace {
+
+constexpr int kWidth = 1200;
+constexpr int kChartHeight = 440;
+constexpr int kMapHeight = 420;
+constexpr int kMapsPerRow = 3;
+constexpr double kMargin = 24.0;
+constexpr double kTitleHeight = 13.0;
+constexpr double kLabelHeight = 10.0;
+/// Recall is averaged over this many tests, fewer in short runs.
+constexpr int kLongestWindow = 50;
+
+constexpr Rgb8 kInk = {40, 40, 40};
+constexpr Rgb8 kFaint = {222, 222, 222};
+// Told apart by people who are colour blind too. Reference: [Okabe2008].
+constexpr Rgb8 kMethodColours[] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}};
+constexpr Rgb8 kFoundColour = {0, 114, 178};
+constexpr Rgb8 kWrongColour = {213, 94, 0};
+constexpr Rgb8 kLostColour = {110, 110, 110};
+
+struct Box {
+  double left = 0.0;
+  double top = 0.0;
+  double right = 0.0;
+  double bottom = 0.0;
+};
+
+Rgb8 method_colour(std::size_t method) { return kMethodColours[method % std::size(kMethodColours)]; }
+
+std::string percent(double fraction) { return format_number(100.0 * fraction, 1) + " %"; }
+
+double found_fraction(const MethodResult& method) {
+  const auto is_found = [](const TestRecord& test) { return test.within(kFoundThreshold); };
+  const auto num_found = std::count_if(method.log.tests.begin(), method.log.tests.end(), is_found);
+  return static_cast<double>(num_found) / static_cast<double>(std::max<std::size_t>(1, method.log.tests.size()));
+}
+
+/// A round step that divides [0, extent] into at most `most` parts: 1, 2 or 5 times a power of ten.
+double round_step(double extent, int most) {
+  const double least = std::max(extent, 1e-9) / most;
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double factor : {1.0, 2.0, 5.0}) {
+    if (factor * power >= least) return factor * power;
+  }
+  return 10.0 * power;
+}
+
+/// Recall over the last `window` tests, at each test.
+std::vector<double> moving_recall(const std::vector<TestRecord>& tests, int window) {
+  std::vector<double> recall;
+  int num_found = 0;
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    num_found += tests[i].within(kFoundThreshold) ? 1 : 0;
+    const std::size_t leaving = static_cast<std::size_t>(window);
+    if (i >= leaving) num_found -= tests[i - leaving].within(kFoundThreshold) ? 1 : 0;
+    recall.push_back(static_cast<double>(num_found) / static_cast<double>(std::min(i + 1, leaving)));
+  }
+  return recall;
+}
+
+void draw_legend(Canvas& canvas, const BenchmarkResult& result, Point right_end) {
+  double x = right_end.x;
+  for (std::size_t i = result.methods.size(); i-- > 0;) {
+    const std::string label = result.methods[i].name + " " + percent(found_fraction(result.methods[i]));
+    canvas.text({x, right_end.y}, label, kLabelHeight, kInk, Align::kRight);
+    x -= Canvas::text_width(label, kLabelHeight) + 8.0;
+    canvas.line({x - 22.0, right_end.y}, {x, right_end.y}, method_colour(i), 3.0);
+    x -= 22.0 + 20.0;
+  }
+}
+
+/// Axes with percent upwards and tests to the right, labelled with the tested frames' numbers.
+void draw_axes(Canvas& canvas, const Box& box, const std::vector<TestRecord>& tests) {
+  for (int tick = 0; tick <= 100; tick += 20) {
+    const double y = box.bottom - (box.bottom - box.top) * tick / 100.0;
+    canvas.line({box.left, y}, {box.right, y}, kFaint);
+    canvas.text({box.left - 8.0, y}, std::to_string(tick) + " %", kLabelHeight, kInk, Align::kRight);
+  }
+  const double num_tests = static_cast<double>(tests.size());
+  const double step = std::max(1.0, round_step(num_tests, 10));
+  const bool one_input = tests.front().input_index == tests.back().input_index;
+  for (double tick = 0.0; tick < num_tests; tick += step) {
+    const double x = box.left + (box.right - box.left) * tick / std::max(1.0, num_tests - 1.0);
+    const auto frame = one_input ? tests[static_cast<std::size_t>(tick)].frame_index : static_cast<std::int64_t>(tick);
+    canvas.line({x, box.bottom}, {x, box.bottom + 5.0}, kInk);
+    canvas.text({x, box.bottom + 17.0}, std::to_string(frame), kLabelHeight, kInk, Align::kCentre);
+  }
+  canvas.line({box.left, box.bottom}, {box.right, box.bottom}, kInk);
+  canvas.text({0.5 * (box.left + box.right), box.bottom + 38.0}, one_input ? "tested frame" : "test", kLabelHeight, kInk, Align::kCentre);
+}
+
+void draw_chart(Canvas& canvas, const BenchmarkResult& result) {
+  const std::vector<TestRecord>& tests = result.methods.front().log.tests;
+  const int window = std::clamp(static_cast<int>(tests.size()) / 10, 1, kLongestWindow);
+  canvas.text({kMargin, kMargin}, "Found within 5 cm and 5 deg, over the last " + std::to_string(window) + " tests", kTitleHeight, kInk);
+  draw_legend(canvas, result, {kWidth - kMargin, kMargin + 26.0});
+  const Box box{kMargin + 52.0, kMargin + 50.0, kWidth - kMargin, kChartHeight - 58.0};
+  draw_axes(canvas, box, tests);
+  for (std::size_t i = result.methods.size(); i-- > 0;) {  // the first method on top
+    const std::vector<double> recall = moving_recall(result.methods[i].log.tests, window);
+    std::vector<Point> points;
+    for (std::size_t test = 0; test < recall.size(); ++test) {
+      const double x =
+          box.left + (box.right - box.left) * static_cast<double>(test) / std::max(1.0, static_cast<double>(recall.size()) - 1.0);
+      points.push_back({x, box.bottom - (box.bottom - box.top) * recall[test]});
+    }
+    canvas.polyline(points, method_colour(i), 2.0);
+  }
+}
+
+/// Fits points [m] into a box, keeping their proportions.
+class MapScale {
+ public:
+  MapScale(const std::vector<Point>& points, const Box& box) : box_(box) {
+    const auto [least_x, most_x] = std::minmax_element(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x; });
+    const auto [least_y, most_y] = std::minmax_element(points.begin(), points.end(), [](Point a, Point b) { return a.y < b.y; });
+    centre_ = {0.5 * (least_x->x + most_x->x), 0.5 * (least_y->y + most_y->y)};
+    const double extent_x_m = std::max(most_x->x - least_x->x, 0.01);
+    const double extent_y_m = std::max(most_y->y - least_y->y, 0.01);
+    px_per_m_ = std::min((box.right - box.left) / extent_x_m, (box.bottom - box.top) / extent_y_m);
+  }
+  Point operator()(Point point) const {
+    return {0.5 * (box_.left + box_.right) + (point.x - centre_.x) * px_per_m_,
+            0.5 * (box_.top + box_.bottom) + (point.y - centre_.y) * px_per_m_};
+  }
+  double px_per_m() const { return px_per_m_; }
+
+ private:
+  Box box_;
+  Point centre_;
+  double px_per_m_ = 1.0;
+};
+
+void draw_scale_bar(Canvas& canvas, Point left_end, double px_per_m) {
+  const double length_m = round_step(120.0 / px_per_m, 2);
+  const Point right_end{left_end.x + length_m * px_per_m, left_end.y};
+  canvas.line(left_end, right_end, kInk, 2.0);
+  const std::string label = length_m < 1.0 ? format_number(length_m * 100.0, 0) + " cm" : format_number(length_m, 0) + " m";
+  canvas.text({right_end.x + 8.0, left_end.y}, label, kLabelHeight, kInk);
+}
+
+void draw_map(Canvas& canvas, const MethodResult& method, const std::vector<Point>& positions_m, const Box& box) {
+  canvas.text({box.left, box.top + 10.0}, method.name + ": " + percent(found_fraction(method)) + " found", kTitleHeight, kInk);
+  const MapScale scale(positions_m, {box.left + 10.0, box.top + 40.0, box.right - 10.0, box.bottom - 40.0});
+  for (std::size_t i = 1; i < positions_m.size(); ++i) {
+    if (method.log.tests[i].input_index == method.log.tests[i - 1].input_index)
+      canvas.line(scale(positions_m[i - 1]), scale(positions_m[i]), kFaint);
+  }
+  for (const bool found : {true, false}) {  // failures on top
+    for (std::size_t i = 0; i < positions_m.size(); ++i) {
+      const TestRecord& test = method.log.tests[i];
+      if (test.within(kFoundThreshold) != found) continue;
+      if (found) {
+        canvas.disc(scale(positions_m[i]), 2.2, kFoundColour);
+      } else {
+        canvas.cross(scale(positions_m[i]), 3.5, test.best.has_value() ? kWrongColour : kLostColour);
+      }
+    }
+  }
+  draw_scale_bar(canvas, {box.left + 10.0, box.bottom - 14.0}, scale.px_per_m());
+}
+
+void draw_map_legend(Canvas& canvas, double y) {
+  double x = kMargin;
+  const auto label = [&](const std::string& words) {
+    canvas.text({x + 10.0, y}, words, kLabelHeight, kInk);
+    x += 10.0 + Canvas::text_width(words, kLabelHeight) + 30.0;
+  };
+  const std::string title = "The trajectory from above";
+  canvas.text({x, y}, title, kTitleHeight, kInk);
+  x += Canvas::text_width(title, kTitleHeight) + 40.0;
+  canvas.disc({x, y}, 4.0, kFoundColour);
+  label("found");
+  canvas.cross({x, y}, 4.0, kWrongColour);
+  label("answered, but off by more");
+  canvas.cross({x, y}, 4.0, kLostColour);
+  label("no answer");
+}
+
+}  // namespace
+
+Image<Rgb8> draw_result(const BenchmarkResult& result) {
+  FOOTHOLD_EXPECTS(!result.methods.empty() && !result.methods.front().log.tests.empty());
+  const int num_maps = static_cast<int>(result.methods.size());
+  const int num_columns = std::min(num_maps, kMapsPerRow);
+  const int num_rows = (num_maps + num_columns - 1) / num_columns;
+  constexpr double legend_height = 40.0;
+  Canvas canvas(kWidth, kChartHeight + static_cast<int>(legend_height) + num_rows * kMapHeight);
+  draw_chart(canvas, result);
+  draw_map_legend(canvas, kChartHeight + 12.0);
+  const std::vector<Point> positions_m = seen_from_above(result.methods.front().log.tests);
+  const double map_width = (kWidth - kMargin * (num_columns + 1)) / num_columns;
+  for (int i = 0; i < num_maps; ++i) {
+    const double left = kMargin + (i % num_columns) * (map_width + kMargin);
+    const double top = kChartHeight + legend_height + (i / num_columns) * kMapHeight;
+    draw_map(canvas, result.methods[static_cast<std::size_t>(i)], positions_m, {left, top, left + map_width, top + kMapHeight});
+  }
+  return canvas.image();
+}
+
+void write_plot(const std::string& path, const BenchmarkResult& result) { write_png(path, draw_result(result)); }
+
+}  // namespace foothold::benchmark

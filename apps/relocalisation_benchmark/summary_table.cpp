@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/evaluation/text_table.h"
+#include "outputs.h"
+
+namespace foothold::benchmark {
+namespace {
+
+std::string percent(double fraction) { return format_number(100.0 * fraction, 1); }
+
+/// "median/p95".
+std::string spread(const Spread& ms) { return format_number(ms.median, 2) + "/" + format_number(ms.p95, 2); }
+
+}  // namespace
+
+std::string summary_table(const BenchmarkResult& result) {
+  std::vector<std::string> header = {"method"};
+  for (const PoseThreshold& threshold : recall_ladder()) {
+    header.push_back(format_number(threshold.translation_m * 100.0, 0) + "cm/" + format_number(threshold.rotation_deg, 0) + "deg %");
+  }
+  for (const char* name :
+       {"first ok", "median mm", "median deg", "accepted %", "false", "train ms", "relocalise ms", "state MB", "peak MB"}) {
+    header.emplace_back(name);
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const MethodResult& method : result.methods) {
+    const MethodReport& report = method.report;
+    std::vector<std::string> row = {method.name};
+    for (const Recall& recall : report.recall) row.push_back(percent(recall.fraction));
+    row.push_back(report.first_success_frame.has_value() ? std::to_string(*report.first_success_frame) : "-");
+    row.push_back(format_number(report.median_translation_m * 1e3, 1));
+    row.push_back(format_number(report.median_rotation_deg, 2));
+    row.push_back(percent(report.accepted_recall));
+    row.push_back(std::to_string(report.num_false_accepts));
+    row.push_back(spread(report.train.wall_ms));
+    row.push_back(spread(report.relocalise.wall_ms));
+    row.push_back(format_number(report.state_mb, 1));
+    row.push_back(format_number(method.peak_mb, 0));
+    rows.push_back(std::move(row));
+  }
+  return format_table(header, rows);
+}
+
+std::string novelty_table(const BenchmarkResult& result) {
+  if (result.methods.empty() || result.methods.front().novelty.empty()) return {};
+  std::vector<std::string> header = {"nearest training view", "frames"};
+  for (const MethodResult& method : result.methods) header.push_back(method.name + " % [95 % interval]");
+  std::vector<std::vector<std::string>> rows;
+  for (std::size_t bin = 0; bin < result.methods.front().novelty.size(); ++bin) {
+    const NoveltyBin& first = result.methods.front().novelty[bin];
+    std::vector<std::string> row = {first.is_rest ? "beyond"
+                                                  : "within " + format_number(first.limit.translation_m * 100.0, 0) + " cm/" +
+                                                        format_number(first.limit.rotation_deg, 0) + " deg",
+                                    std::to_string(first.num_frames)};
+    for (const MethodResult& method : result.methods) {
+      const NoveltyBin& each = method.novelty[bin];
+      row.push_back(each.num_frames == 0 ? "-"
+                                         : percent(static_cast<double>(each.num_found) / each.num_frames) + " [" +
+                                               percent(each.recall_95.low) + ", " + percent(each.recall_95.high) + "]");
+    }
+    rows.push_back(std::move(row));
+  }
+  return format_table(header, rows);
+}
+
+}  // namespace foothold::benchmark
