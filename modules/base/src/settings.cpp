@@ -76,7 +76,8 @@ double parse_number(const std::string& path, const std::string& text, const Rang
   const double value = std::strtod(text.c_str(), &end);
   const bool complete = !text.empty() && end == text.c_str() + text.size();
   if (!complete || (integer && std::floor(value) != value)) {
-    throw InvalidSettings("setting " + path + ": got '" + text + "', expected " + (integer ? "an integer in " : "a number in ") + range_text(range));
+    throw InvalidSettings("setting " + path + ": got '" + text + "', expected " + (integer ? "an integer in " : "a number in ") +
+                          range_text(range));
   }
   check_range(path, value, range);
   return value;
@@ -91,9 +92,8 @@ unsigned long long parse_unsigned(const std::string& path, const std::string& te
 }
 
 void throw_unknown_setting(const std::string& path, const std::vector<SettingDescription>& known) {
-  const auto nearest = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-    return edit_distance(path, a.path) < edit_distance(path, b.path);
-  });
+  const auto nearest = std::min_element(
+      known.begin(), known.end(), [&](const auto& a, const auto& b) { return edit_distance(path, a.path) < edit_distance(path, b.path); });
   std::string message = "unknown setting '" + path + "'";
   if (nearest != known.end()) message += "; did you mean '" + nearest->path + "'?";
   throw InvalidSettings(message);

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <cstring>
 #include <istream>
-#include <limits>
 #include <ostream>
 #include <string>
+#include <utility>
 
+#include "foothold/base/array.h"
 #include "foothold/base/checksum.h"
 #include "foothold/base/contract.h"
 #include "foothold/base/error.h"
@@ -102,99 +103,122 @@ void KeyframeRelocaliserSettings::validate() const {
   }
 }
 
-KeyframeRelocaliser::KeyframeRelocaliser(const Context& context, const KeyframeRelocaliserSettings& settings)
-    : context_(context), settings_(settings) {
-  settings_.validate();
-  encoder_ = std::make_unique<FernEncoder>(settings_);
-  frame_code_.resize(encoder_->num_words());
+struct KeyframeRelocaliser::State {
+  State(const Context& used_context, const KeyframeRelocaliserSettings& used_settings)
+      : context(used_context), settings(used_settings), encoder(used_settings), frame_code(encoder.num_words()) {}
+
+  /// Encodes a frame into frame_code. @return False if it has too little depth.
+  bool encode(const Frame& frame);
+  /// Fraction of ferns in which the current frame differs from a keyframe.
+  float dissimilarity(std::size_t keyframe) const;
+  float confidence(float dissimilarity) const;
+
+  Context context;
+  KeyframeRelocaliserSettings settings;
+  FernEncoder encoder;
+  Array<float> host_depth;                ///< copy of a frame that came in CUDA memory
+  std::vector<std::uint64_t> frame_code;  ///< code of the current frame
+  std::vector<std::uint64_t> codes;       ///< codes of the keyframes, one after another
+  std::vector<SE3> world_from_keyframes;
+  std::vector<std::pair<float, std::size_t>> ranking;  ///< (dissimilarity, keyframe), reused between calls
+};
+
+bool KeyframeRelocaliser::State::encode(const Frame& frame) {
+  ImageView<const float> depth = frame.depth;
+  if (depth.memory != MemoryKind::kHost) {
+    context.synchronise();  // the frame may still be on its way on our stream
+    host_depth.resize(depth.size());
+    detail::copy_memory(MemoryKind::kHost, host_depth.data(), depth.memory, depth.data, depth.size() * sizeof(float));
+    depth = {host_depth.data(), depth.width, depth.height, MemoryKind::kHost};
+  }
+  return encoder.encode(depth, frame_code);
+}
+
+float KeyframeRelocaliser::State::dissimilarity(std::size_t keyframe) const {
+  const std::size_t num_words = encoder.num_words();
+  const int different = count_different_ferns(frame_code.data(), &codes[keyframe * num_words], num_words);
+  return static_cast<float>(different) / static_cast<float>(settings.num_ferns);
+}
+
+float KeyframeRelocaliser::State::confidence(float dissimilarity) const {
+  return 1.0F / (1.0F + std::exp((dissimilarity - settings.confidence_midpoint) / settings.confidence_spread));
+}
+
+KeyframeRelocaliser::KeyframeRelocaliser(const Context& context, const KeyframeRelocaliserSettings& settings) {
+  settings.validate();
+  state_ = std::make_unique<State>(context, settings);
 }
 
 KeyframeRelocaliser::~KeyframeRelocaliser() = default;
-
-bool KeyframeRelocaliser::encode(const Frame& frame) {
-  ImageView<const float> depth = frame.depth;
-  if (depth.memory != MemoryKind::kHost) {
-    context_.synchronise();  // the frame may still be on its way on our stream
-    host_depth_.resize(depth.size());
-    detail::copy_memory(MemoryKind::kHost, host_depth_.data(), depth.memory, depth.data, depth.size() * sizeof(float));
-    depth = {host_depth_.data(), depth.width, depth.height, MemoryKind::kHost};
-  }
-  return encoder_->encode(depth, frame_code_);
+KeyframeRelocaliser::KeyframeRelocaliser(KeyframeRelocaliser&&) noexcept = default;
+KeyframeRelocaliser& KeyframeRelocaliser::operator=(KeyframeRelocaliser&&) noexcept = default;
+KeyframeRelocaliser::KeyframeRelocaliser(const KeyframeRelocaliser& other) : state_(std::make_unique<State>(*other.state_)) {}
+KeyframeRelocaliser& KeyframeRelocaliser::operator=(const KeyframeRelocaliser& other) {
+  state_ = std::make_unique<State>(*other.state_);
+  return *this;
 }
 
-float KeyframeRelocaliser::dissimilarity(std::size_t keyframe) const {
-  const std::size_t num_words = encoder_->num_words();
-  const int different = count_different_ferns(frame_code_.data(), &codes_[keyframe * num_words], num_words);
-  return static_cast<float>(different) / static_cast<float>(settings_.num_ferns);
-}
-
-float KeyframeRelocaliser::nearest_dissimilarity() const {
-  float nearest = std::numeric_limits<float>::infinity();
-  for (std::size_t i = 0; i < world_from_keyframes_.size(); ++i) nearest = std::min(nearest, dissimilarity(i));
-  return nearest;
-}
-
-float KeyframeRelocaliser::confidence(float dissimilarity) const {
-  return 1.0F / (1.0F + std::exp((dissimilarity - settings_.confidence_midpoint) / settings_.confidence_spread));
-}
+const KeyframeRelocaliserSettings& KeyframeRelocaliser::settings() const { return state_->settings; }
+std::size_t KeyframeRelocaliser::num_keyframes() const { return state_->world_from_keyframes.size(); }
+float KeyframeRelocaliser::acceptance_threshold() const { return state_->settings.acceptance_threshold; }
 
 void KeyframeRelocaliser::train(const Frame& frame, const SE3& world_from_camera) {
   FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
   FOOTHOLD_EXPECTS(is_rigid(world_from_camera, kRigidTolerance));
+  State& s = *state_;
   {
-    const ScopedStage stage(context_, "train/encode");
-    if (!encode(frame)) return;
+    const ScopedStage stage(s.context, "train/encode");
+    if (!s.encode(frame)) return;
   }
-  const ScopedStage stage(context_, "train/search");
-  if (world_from_keyframes_.size() >= static_cast<std::size_t>(settings_.max_keyframes)) return;
-  if (nearest_dissimilarity() < settings_.harvest_dissimilarity) return;
-  codes_.insert(codes_.end(), frame_code_.begin(), frame_code_.end());
-  world_from_keyframes_.push_back(world_from_camera);
+  const ScopedStage stage(s.context, "train/search");
+  if (num_keyframes() >= static_cast<std::size_t>(s.settings.max_keyframes)) return;
+  for (std::size_t i = 0; i < num_keyframes(); ++i) {
+    if (s.dissimilarity(i) < s.settings.harvest_dissimilarity) return;
+  }
+  s.codes.insert(s.codes.end(), s.frame_code.begin(), s.frame_code.end());
+  s.world_from_keyframes.push_back(world_from_camera);
 }
 
 std::vector<PoseEstimate> KeyframeRelocaliser::relocalise(const Frame& frame) {
   FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
-  if (world_from_keyframes_.empty()) return {};
+  State& s = *state_;
+  if (num_keyframes() == 0) return {};
   {
-    const ScopedStage stage(context_, "relocalise/encode");
-    if (!encode(frame)) return {};
+    const ScopedStage stage(s.context, "relocalise/encode");
+    if (!s.encode(frame)) return {};
   }
-  const ScopedStage stage(context_, "relocalise/search");
-  ranking_.clear();
-  for (std::size_t i = 0; i < world_from_keyframes_.size(); ++i) ranking_.emplace_back(dissimilarity(i), i);
-  const auto count = static_cast<std::ptrdiff_t>(std::min(ranking_.size(), static_cast<std::size_t>(settings_.num_candidates)));
-  std::partial_sort(ranking_.begin(), ranking_.begin() + count, ranking_.end());  // equals: the older keyframe first
+  const ScopedStage stage(s.context, "relocalise/search");
+  s.ranking.clear();
+  for (std::size_t i = 0; i < num_keyframes(); ++i) s.ranking.emplace_back(s.dissimilarity(i), i);
+  const auto count = static_cast<std::ptrdiff_t>(std::min(s.ranking.size(), static_cast<std::size_t>(s.settings.num_candidates)));
+  std::partial_sort(s.ranking.begin(), s.ranking.begin() + count, s.ranking.end());  // equals: the older keyframe first
   std::vector<PoseEstimate> estimates;
   for (std::ptrdiff_t i = 0; i < count; ++i) {
-    const auto& [distance, keyframe] = ranking_[static_cast<std::size_t>(i)];
-    estimates.push_back({world_from_keyframes_[keyframe], confidence(distance)});
+    const auto& [dissimilarity, keyframe] = s.ranking[static_cast<std::size_t>(i)];
+    estimates.push_back({s.world_from_keyframes[keyframe], s.confidence(dissimilarity)});
   }
   return estimates;
 }
 
 void KeyframeRelocaliser::reset() {
-  codes_.clear();
-  codes_.shrink_to_fit();
-  world_from_keyframes_.clear();
-  world_from_keyframes_.shrink_to_fit();
+  state_->codes = std::vector<std::uint64_t>();
+  state_->world_from_keyframes = std::vector<SE3>();
 }
 
 std::size_t KeyframeRelocaliser::state_bytes() const {
-  return codes_.capacity() * sizeof(std::uint64_t) + world_from_keyframes_.capacity() * sizeof(SE3);
+  return state_->codes.capacity() * sizeof(std::uint64_t) + state_->world_from_keyframes.capacity() * sizeof(SE3);
 }
-
-float KeyframeRelocaliser::acceptance_threshold() const { return settings_.acceptance_threshold; }
 
 void KeyframeRelocaliser::save(std::ostream& stream) const {
   ChecksummedWriter writer(stream);
-  const CodeSettings code = code_settings(settings_);
-  const std::uint64_t num_keyframes = world_from_keyframes_.size();
+  const CodeSettings code = code_settings(state_->settings);
+  const std::uint64_t num_keyframes = this->num_keyframes();
   writer.write(kMagic, sizeof(kMagic));
   writer.write(&kVersion, sizeof(kVersion));
   writer.write(&code, sizeof(code));
   writer.write(&num_keyframes, sizeof(num_keyframes));
-  writer.write(codes_.data(), codes_.size() * sizeof(std::uint64_t));
-  writer.write(world_from_keyframes_.data(), world_from_keyframes_.size() * sizeof(SE3));
+  writer.write(state_->codes.data(), state_->codes.size() * sizeof(std::uint64_t));
+  writer.write(state_->world_from_keyframes.data(), num_keyframes * sizeof(SE3));
   const std::uint64_t checksum = writer.checksum();
   writer.write(&checksum, sizeof(checksum));
   stream.flush();
@@ -210,26 +234,26 @@ void KeyframeRelocaliser::load(std::istream& stream) {
   const auto version = reader.read<std::uint32_t>();
   if (version != kVersion) throw FileError("keyframe scene: version " + std::to_string(version) + "; expected " + std::to_string(kVersion));
   const auto code = reader.read<CodeSettings>();
-  const CodeSettings expected = code_settings(settings_);
+  const CodeSettings expected = code_settings(state_->settings);
   if (std::memcmp(&code, &expected, sizeof(code)) != 0) {
     throw FileError("keyframe scene: made with other ferns (" + std::to_string(code.num_ferns) + " with seed " + std::to_string(code.seed) +
                     "); expected the settings of this relocaliser (" + std::to_string(expected.num_ferns) + " with seed " +
                     std::to_string(expected.seed) + ", and equal image width, smoothing and thresholds)");
   }
   const auto num_keyframes = reader.read<std::uint64_t>();
-  if (num_keyframes > static_cast<std::uint64_t>(settings_.max_keyframes)) {
+  if (num_keyframes > static_cast<std::uint64_t>(state_->settings.max_keyframes)) {
     throw FileError("keyframe scene: " + std::to_string(num_keyframes) + " keyframes; expected at most " +
-                    std::to_string(settings_.max_keyframes));
+                    std::to_string(state_->settings.max_keyframes));
   }
-  auto codes = reader.read_vector<std::uint64_t>(num_keyframes * encoder_->num_words());
+  auto codes = reader.read_vector<std::uint64_t>(num_keyframes * state_->encoder.num_words());
   auto poses = reader.read_vector<SE3>(num_keyframes);
   const std::uint64_t checksum = reader.checksum();
   if (reader.read<std::uint64_t>() != checksum) throw FileError("keyframe scene: the checksum does not match; the data is damaged");
   for (const SE3& pose : poses) {
     if (!is_rigid(pose, kRigidTolerance)) throw FileError("keyframe scene: a pose is not rigid; the data is damaged");
   }
-  codes_ = std::move(codes);
-  world_from_keyframes_ = std::move(poses);
+  state_->codes = std::move(codes);
+  state_->world_from_keyframes = std::move(poses);
 }
 
 }  // namespace foothold

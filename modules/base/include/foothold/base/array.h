@@ -26,13 +26,14 @@ void copy_memory(MemoryKind to_memory, void* to, MemoryKind from_memory, const v
 void clear_memory(MemoryKind memory, void* pointer, std::size_t num_bytes);
 }  // namespace detail
 
-/// A growing buffer of trivially copyable elements whose kind of memory is fixed at construction.
+/// A growing buffer of elements that may be copied as bytes, whose kind of memory is fixed at construction.
 ///
 /// resize() keeps the contents and never gives memory back, so a buffer that is reused from frame to frame soon stops allocating.
 /// New elements are uninitialised unless stated. Not thread-safe.
 template <class T>
 class Array {
-  static_assert(std::is_trivially_copyable_v<T>, "Array moves its elements as bytes");
+  // Elements are moved as bytes. Eigen's fixed-size matrices allow it without being formally trivially copyable.
+  static_assert(std::is_trivially_destructible_v<T>, "Array moves its elements as bytes");
 
  public:
   explicit Array(MemoryKind memory = MemoryKind::kHost) : memory_(memory) {}

@@ -19,9 +19,9 @@ void contract_violated(const char* condition, const char* file, int line);
 }  // namespace foothold
 
 /// Calls the contract handler unless the condition holds. Host code only; stays on in release builds.
-#define FOOTHOLD_EXPECTS(condition)                                                      \
-  do {                                                                                   \
-    if (!(condition)) {                                                                  \
-      ::foothold::detail::contract_violated(#condition, __FILE__, __LINE__);             \
-    }                                                                                    \
+#define FOOTHOLD_EXPECTS(condition)                                          \
+  do {                                                                       \
+    if (!(condition)) {                                                      \
+      ::foothold::detail::contract_violated(#condition, __FILE__, __LINE__); \
+    }                                                                        \
   } while (false)

@@ -33,7 +33,9 @@ struct ImageView {
   FOOTHOLD_HD std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
   FOOTHOLD_HD bool contains(int u, int v) const { return u >= 0 && v >= 0 && u < width && v < height; }
   /// The pixel in column u and row v. Never checks bounds.
-  FOOTHOLD_HD T& operator()(int u, int v) const { return data[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u)]; }
+  FOOTHOLD_HD T& operator()(int u, int v) const {
+    return data[static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u)];
+  }
   /// Adds const.
   template <class U, class = std::enable_if_t<std::is_same_v<const T, U> && !std::is_same_v<T, U>>>
   FOOTHOLD_HD operator ImageView<U>() const {  // NOLINT(google-explicit-constructor)
@@ -52,7 +54,8 @@ struct ColourView {
   FOOTHOLD_HD bool empty() const { return data == nullptr || width <= 0 || height <= 0; }
   /// The pixel in column u and row v. Never checks bounds.
   FOOTHOLD_HD Rgb8 operator()(int u, int v) const {
-    const std::uint8_t* pixel = data + (static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u)) * static_cast<std::size_t>(bytes_per_pixel);
+    const std::uint8_t* pixel = data + (static_cast<std::size_t>(v) * static_cast<std::size_t>(width) + static_cast<std::size_t>(u)) *
+                                           static_cast<std::size_t>(bytes_per_pixel);
     return {pixel[0], pixel[1], pixel[2]};
   }
 };
@@ -80,7 +83,9 @@ class Image {
   ImageView<const T> view() const { return {data(), width_, height_, MemoryKind::kHost}; }
 
  private:
-  std::size_t index(int u, int v) const { return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u); }
+  std::size_t index(int u, int v) const {
+    return static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u);
+  }
 
   int width_ = 0;
   int height_ = 0;

@@ -37,9 +37,9 @@ FOOTHOLD_HD inline SE3 se3_exp(const Tangent6& tangent) {
   const Eigen::Vector3f omega = tangent.head<3>();
   const Eigen::Vector3f v = tangent.tail<3>();
   const float theta2 = omega.squaredNorm();
-  float a = 1.0F - theta2 / 6.0F;             // sin(theta) / theta
-  float b = 0.5F - theta2 / 24.0F;            // (1 - cos(theta)) / theta^2
-  float c = 1.0F / 6.0F - theta2 / 120.0F;    // (1 - a) / theta^2
+  float a = 1.0F - theta2 / 6.0F;           // sin(theta) / theta
+  float b = 0.5F - theta2 / 24.0F;          // (1 - cos(theta)) / theta^2
+  float c = 1.0F / 6.0F - theta2 / 120.0F;  // (1 - a) / theta^2
   if (theta2 > 1e-4F) {
     const float theta = std::sqrt(theta2);
     a = std::sin(theta) / theta;
@@ -60,7 +60,8 @@ Tangent6 se3_log(const SE3& transform);
 /// The rotation nearest to a matrix in the Frobenius norm, by SVD. @pre The matrix has positive determinant.
 Eigen::Matrix3f nearest_rotation(const Eigen::Matrix3f& matrix);
 
-/// True if every entry is finite and rotation^T rotation differs from the identity by at most `tolerance` per entry, with positive determinant.
+/// True if every entry is finite and rotation^T rotation differs from the identity by at most `tolerance` per entry, with positive
+/// determinant.
 bool is_rigid(const SE3& transform, float tolerance);
 
 /// The angle between two orientations [rad], in [0, pi]; accurate for tiny angles, unlike acos of the trace.

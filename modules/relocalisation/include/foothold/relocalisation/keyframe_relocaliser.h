@@ -5,18 +5,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <iosfwd>
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include "foothold/api/relocaliser.h"
-#include "foothold/base/array.h"
 #include "foothold/base/context.h"
+#include "foothold/base/settings.h"
 
 namespace foothold {
-
-class FernEncoder;
 
 /// How frames are encoded, kept and recognised. (P): [Glocker2015]. (T): fitted to the loss protocol with gaps of 0 to 30 frames on
 /// 7-Scenes RedKitchen seq-01 and TUM fr3/teddy together, where 9 of 10 proposals above the acceptance threshold were right.
@@ -38,20 +34,21 @@ struct KeyframeRelocaliserSettings {
   template <class Visitor>
   static void fields(Visitor& v) {
     using S = KeyframeRelocaliserSettings;
-    v(&S::num_ferns, "num_ferns", "Ferns of four binary depth tests each (P).", {16, 8192});
-    v(&S::encoded_width_px, "encoded_width_px", "Images are halved until they are about this wide (P).", {8, 640});
-    v(&S::smoothing_sigma_px, "smoothing_sigma_px", "Standard deviation of the Gaussian that smooths the halved image (P).", {0.1, 20});
-    v(&S::min_threshold_m, "min_threshold_m", "Least depth that a test compares with: a Kinect's nominal range.", {0, 100});
-    v(&S::max_threshold_m, "max_threshold_m", "Greatest depth that a test compares with: a Kinect's nominal range.", {0, 100});
-    v(&S::min_valid_fraction, "min_valid_fraction", "Frames of which less of the halved image has depth are ignored.", {0, 1});
+    v(&S::num_ferns, "num_ferns", "Ferns of four binary depth tests each (P).", Range{16, 8192});
+    v(&S::encoded_width_px, "encoded_width_px", "Images are halved until they are about this wide (P).", Range{8, 640});
+    v(&S::smoothing_sigma_px, "smoothing_sigma_px", "Standard deviation of the Gaussian that smooths the halved image (P).",
+      Range{0.1, 20});
+    v(&S::min_threshold_m, "min_threshold_m", "Least depth that a test compares with: a Kinect's nominal range.", Range{0, 100});
+    v(&S::max_threshold_m, "max_threshold_m", "Greatest depth that a test compares with: a Kinect's nominal range.", Range{0, 100});
+    v(&S::min_valid_fraction, "min_valid_fraction", "Frames of which less of the halved image has depth are ignored.", Range{0, 1});
     v(&S::harvest_dissimilarity, "harvest_dissimilarity", "A frame becomes a keyframe unless one is less dissimilar than this (P).",
-      {0, 1});
-    v(&S::max_keyframes, "max_keyframes", "Keyframes kept; once reached, none are added.", {1, 10000000});
-    v(&S::num_candidates, "num_candidates", "Nearest keyframes whose poses are proposed; the baseline has 1 (P).", {1, 1000});
-    v(&S::confidence_midpoint, "confidence_midpoint", "Dissimilarity at which a proposal is as likely right as wrong (T).", {0, 1});
-    v(&S::confidence_spread, "confidence_spread", "How gently the confidence falls around its midpoint (T).", {0.0001, 1});
-    v(&S::acceptance_threshold, "acceptance_threshold", "Confidence from which a host should believe the first proposal (T).", {0, 1});
-    v(&S::seed, "seed", "Seed of the tests' places and thresholds.", {0, 1.8446744073709552e19});
+      Range{0, 1});
+    v(&S::max_keyframes, "max_keyframes", "Keyframes kept; once reached, none are added.", Range{1, 10000000});
+    v(&S::num_candidates, "num_candidates", "Nearest keyframes whose poses are proposed; the baseline has 1 (P).", Range{1, 1000});
+    v(&S::confidence_midpoint, "confidence_midpoint", "Dissimilarity at which a proposal is as likely right as wrong (T).", Range{0, 1});
+    v(&S::confidence_spread, "confidence_spread", "How gently the confidence falls around its midpoint (T).", Range{0.0001, 1});
+    v(&S::acceptance_threshold, "acceptance_threshold", "Confidence from which a host should believe the first proposal (T).", Range{0, 1});
+    v(&S::seed, "seed", "Seed of the tests' places and thresholds.", Range{0, 1.8446744073709552e19});
   }
   /// @throws InvalidSettings naming the field, its value and its range.
   void validate() const;
@@ -65,13 +62,16 @@ struct KeyframeRelocaliserSettings {
 /// Determinism: a function of the frames and settings alone; one thread.
 /// Cost:        one pass over the image and 256 bytes per keyframe; no allocation after warm-up except for new keyframes.
 /// Reference:   [Glocker2015]; test places cover the whole image.
-class KeyframeRelocaliser : public Relocaliser, public Persistent {
+class KeyframeRelocaliser final : public Relocaliser, public Persistent {
  public:
   /// Works on the host whatever the context's device; frames in CUDA memory are copied. @throws InvalidSettings
   explicit KeyframeRelocaliser(const Context& context, const KeyframeRelocaliserSettings& settings = {});
   ~KeyframeRelocaliser() override;
-  KeyframeRelocaliser(const KeyframeRelocaliser&) = delete;
-  KeyframeRelocaliser& operator=(const KeyframeRelocaliser&) = delete;
+  KeyframeRelocaliser(KeyframeRelocaliser&&) noexcept;
+  KeyframeRelocaliser& operator=(KeyframeRelocaliser&&) noexcept;
+  /// Copies the scene too, for experiments that branch off.
+  KeyframeRelocaliser(const KeyframeRelocaliser&);
+  KeyframeRelocaliser& operator=(const KeyframeRelocaliser&);
 
   void train(const Frame& frame, const SE3& world_from_camera) override;
   std::vector<PoseEstimate> relocalise(const Frame& frame) override;
@@ -83,23 +83,12 @@ class KeyframeRelocaliser : public Relocaliser, public Persistent {
   void save(std::ostream& stream) const override;
   void load(std::istream& stream) override;
 
-  std::size_t num_keyframes() const { return world_from_keyframes_.size(); }
-  const KeyframeRelocaliserSettings& settings() const { return settings_; }
+  std::size_t num_keyframes() const;
+  const KeyframeRelocaliserSettings& settings() const;
 
  private:
-  bool encode(const Frame& frame);
-  float dissimilarity(std::size_t keyframe) const;
-  float nearest_dissimilarity() const;
-  float confidence(float dissimilarity) const;
-
-  Context context_;
-  KeyframeRelocaliserSettings settings_;
-  std::unique_ptr<FernEncoder> encoder_;
-  Array<float> host_depth_;                ///< copy of a frame that came in CUDA memory
-  std::vector<std::uint64_t> frame_code_;  ///< code of the current frame
-  std::vector<std::uint64_t> codes_;       ///< codes of the keyframes, one after another
-  std::vector<SE3> world_from_keyframes_;
-  std::vector<std::pair<float, std::size_t>> ranking_;  ///< (dissimilarity, keyframe), reused between calls
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
 }  // namespace foothold

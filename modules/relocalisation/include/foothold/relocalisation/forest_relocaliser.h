@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The relocaliser of the paper: a forest whose leaves are refilled online. Reference: [Cavallari2017].
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "foothold/api/relocaliser.h"
+#include "foothold/base/context.h"
+#include "foothold/relocalisation/forest.h"
+#include "foothold/relocalisation/settings.h"
+
+namespace foothold {
+
+/// Adapts a forest to a scene frame by frame (Sec. 2.2.2) and estimates lost cameras from its leaves (Sec. 2.2.3).
+///
+/// Determinism: the scene is a function of forest, settings and training frames; an answer is a function of the scene and the frame.
+/// Neither depends on threads or device, but for rounding in the pose.
+class ForestRelocaliser final : public Relocaliser, public Persistent {
+ public:
+  /// @throws InvalidSettings; DeviceError if the context's device fails.
+  explicit ForestRelocaliser(const Context& context, Forest forest = default_forest(), const ForestRelocaliserSettings& settings = {});
+  ~ForestRelocaliser() override;
+  ForestRelocaliser(ForestRelocaliser&&) noexcept;
+  ForestRelocaliser& operator=(ForestRelocaliser&&) noexcept;
+  /// Copies the scene too, for experiments that branch off.
+  ForestRelocaliser(const ForestRelocaliser&);
+  ForestRelocaliser& operator=(const ForestRelocaliser&);
+
+  void train(const Frame& frame, const SE3& world_from_camera) override;
+  std::vector<PoseEstimate> relocalise(const Frame& frame) override;
+  void update() override;
+  void reset() override;
+  std::size_t state_bytes() const override;
+  float acceptance_threshold() const override;
+
+  void save(std::ostream& stream) const override;
+  void load(std::istream& stream) override;
+
+  const Forest& forest() const;
+  const ForestRelocaliserSettings& settings() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace foothold

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "clustering/leaf_modes.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "clustering/leaf_modes_kernels.h"
+#include "foothold/base/binary_stream.h"
+#include "foothold/base/exec/dispatch.h"
+
+namespace foothold {
+
+#ifdef FOOTHOLD_HAS_CUDA
+extern template struct ClusteringAlgorithms<CudaExecutor>;
+#endif
+
+namespace {
+
+/// A step through the leaves that visits each once and neighbours far apart.
+std::uint32_t scattering_stride(int num_leaves) {
+  std::uint32_t stride = 7919;
+  while (std::gcd(stride, static_cast<std::uint32_t>(num_leaves)) != 1) ++stride;
+  return stride;
+}
+
+}  // namespace
+
+LeafModes::LeafModes(const Context& context, int num_leaves, const ClusteringSettings& settings)
+    : settings_(settings),
+      num_leaves_(num_leaves),
+      modes_(context.memory(), num_leaves, settings.max_modes),
+      num_modes_(context.memory(), static_cast<std::size_t>(num_leaves)),
+      num_owned_blocks_(context.memory(), static_cast<std::size_t>(num_leaves)),
+      keys_(context.memory(), static_cast<std::size_t>(settings.touched_first ? num_leaves : 0)),
+      sort_buffer_(context.memory()),
+      costs_(context.memory()),
+      cost_before_(context.memory()),
+      chosen_(context.memory()),
+      new_modes_(context.memory()),
+      num_new_modes_(context.memory()),
+      new_blocks_(context.memory()),
+      first_new_block_(context.memory()) {
+  const auto num_slots = static_cast<std::size_t>(std::min(settings.leaves_per_frame, num_leaves));
+  costs_.resize(num_slots);
+  cost_before_.resize(num_slots + 1);
+  chosen_.resize(num_slots);
+  new_modes_.resize(num_slots * static_cast<std::size_t>(settings.max_modes));
+  num_new_modes_.resize(num_slots);
+  new_blocks_.resize(num_slots);
+  first_new_block_.resize(num_slots + 1);
+  clear();
+}
+
+void LeafModes::clear() {
+  cursor_ = 0;
+  modes_.clear();
+  num_modes_.clear_to_zero();
+  num_owned_blocks_.clear_to_zero();
+}
+
+std::size_t LeafModes::state_bytes() const { return modes_.state_bytes() + num_modes_.num_bytes() + num_owned_blocks_.num_bytes(); }
+
+void LeafModes::update(const Context& context, LeafReservoirs& reservoirs) {
+  const ClusteringBuffers buffers{keys_,      sort_buffer_,   costs_,      cost_before_,    chosen_,
+                                  new_modes_, num_new_modes_, new_blocks_, first_new_block_};
+  dispatch(context, [&](auto on) {
+    ClusteringAlgorithms<typename decltype(on)::Executor>::update(context, reservoirs.view(), view(), settings_, cursor_,
+                                                                  scattering_stride(num_leaves_), buffers, modes_.num_used_blocks());
+  });
+  cursor_ = static_cast<std::uint32_t>((cursor_ + chosen_.size()) % static_cast<std::size_t>(num_leaves_));
+}
+
+void LeafModes::save(std::ostream& stream) const {
+  write_value(stream, cursor_);
+  write_array(stream, num_modes_.to_host());
+  write_array(stream, num_owned_blocks_.to_host());
+  write_array(stream, modes_.blocks_to_host());
+  write_array(stream, modes_.used_pool_to_host());
+}
+
+void LeafModes::load(std::istream& stream) {
+  const auto cursor = read_value<std::uint32_t>(stream, "clustering cursor");
+  const auto num_leaves = static_cast<std::uint64_t>(num_leaves_);
+  const int max_blocks = decltype(modes_)::View::blocks_for(settings_.max_modes);
+  const std::uint64_t num_blocks = num_leaves * static_cast<std::uint64_t>(max_blocks);
+  const auto num_modes = read_array<std::uint32_t>(stream, "mode counts", num_leaves, num_leaves);
+  const auto num_owned = read_array<std::uint32_t>(stream, "mode block counts", num_leaves, num_leaves);
+  const auto blocks = read_array<std::int32_t>(stream, "mode block references", num_blocks, num_blocks);
+  const auto pool = read_array<Mode>(stream, "modes", 0, num_blocks * kModeBlockSize);
+  const auto num_used = static_cast<std::int64_t>(pool.size() / kModeBlockSize);
+  for (std::uint64_t leaf = 0; leaf < num_leaves; ++leaf) {
+    if (num_modes[leaf] > static_cast<std::uint32_t>(settings_.max_modes) || num_owned[leaf] > static_cast<std::uint32_t>(max_blocks) ||
+        num_modes[leaf] > num_owned[leaf] * kModeBlockSize) {
+      throw FileError("the saved scene gives leaf " + std::to_string(leaf) + " " + std::to_string(num_modes[leaf]) + " modes in " +
+                      std::to_string(num_owned[leaf]) + " blocks, expected at most " + std::to_string(settings_.max_modes));
+    }
+    for (std::uint32_t k = 0; k < num_owned[leaf]; ++k) {
+      const std::int32_t block = blocks[leaf * static_cast<std::uint64_t>(max_blocks) + k];
+      if (block < 0 || block >= num_used)
+        throw FileError("the saved scene refers to mode block " + std::to_string(block) + ", there are " + std::to_string(num_used));
+    }
+  }
+  cursor_ = cursor % static_cast<std::uint32_t>(num_leaves_);
+  num_modes_.assign(Span<const std::uint32_t>(num_modes));
+  num_owned_blocks_.assign(Span<const std::uint32_t>(num_owned));
+  modes_.restore(Span<const Mode>(pool), Span<const std::int32_t>(blocks));
+}
+
+}  // namespace foothold

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Really Quick Shift on one leaf, by a team of lanes, for both devices. Reference: [Fulkerson2010]; [Cavallari2017] Sec. 2.2.2, step 3.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "clustering/leaf_modes.h"
+#include "reservoirs/leaf_reservoirs_kernels.h"
+
+namespace foothold {
+
+inline constexpr int kMaxReservoir = 1024;  ///< of ReservoirSettings::capacity
+static_assert(kMaxReservoir % 16 == 0, "points are processed in vectors");
+
+/// Shared by the lanes of a team: the points of one leaf and what becomes of them.
+struct QuickShiftScratch {
+  float x_mm[kMaxReservoir];
+  float y_mm[kMaxReservoir];
+  float z_mm[kMaxReservoir];
+  float density[kMaxReservoir];
+  std::int32_t parent[kMaxReservoir];  ///< later the root, later the rank of the cluster
+  std::int32_t size[kMaxReservoir];    ///< of the cluster whose root this is; negative once the cluster has a rank
+};
+
+/// exp(-t) for t in [0, 4.5], to 0.5 %: the eighth power of a short series, in operations that every device rounds alike.
+FOOTHOLD_HD FOOTHOLD_INLINE float exp_minus(float t) {
+  const float s = -0.125F * t;
+  const float e = 1.0F + s * (1.0F + s * (0.5F + s * (1.0F / 6.0F + s * (1.0F / 24.0F))));
+  const float e2 = e * e;
+  const float e4 = e2 * e2;
+  return e4 * e4;
+}
+
+/// Sums of a cluster's members relative to its root: integers, so that their order does not matter.
+struct ClusterSums {
+  std::int64_t count = 0;
+  std::int64_t x = 0, y = 0, z = 0;
+  std::int64_t xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
+  std::int64_t r = 0, g = 0, b = 0;
+};
+
+/// Finds the modes of one leaf.
+template <class Team, int kWidth>
+struct QuickShift {
+  const Team& team;
+  QuickShiftScratch& s;
+  const LeafReservoirsView& reservoirs;
+  const ClusteringSettings& settings;
+  std::uint32_t leaf;
+  int num_points;
+
+  /// @return The number of modes, written to `modes` with the largest first; the same on every lane.
+  FOOTHOLD_HD int run(Mode* modes) const {
+    load_points();
+    team.sync();
+    estimate_densities();
+    team.sync();
+    link_to_parents();
+    team.sync();
+    find_roots();
+    team.sync();
+    const int num_modes = rank_clusters();
+    for (int rank = 0; rank < num_modes; ++rank) summarise(rank, modes[rank]);
+    return num_modes;
+  }
+
+ private:
+  FOOTHOLD_HD int padded() const { return (num_points + kWidth - 1) / kWidth * kWidth; }
+
+  FOOTHOLD_HD void load_points() const {
+    for (int i = team.lane(); i < padded(); i += team.size()) {
+      const ReservoirPoint point = reservoirs.points.at(leaf, i < num_points ? i : 0);
+      s.x_mm[i] = point.x_mm;
+      s.y_mm[i] = point.y_mm;
+      s.z_mm[i] = point.z_mm;
+    }
+  }
+
+  /// Parzen density with a Gaussian kernel cut off at three sigma.
+  FOOTHOLD_HD void estimate_densities() const {
+    const float sigma_mm = settings.sigma_m * 1000.0F;
+    const float cutoff_mm2 = 9.0F * sigma_mm * sigma_mm;
+    const float scale = 0.5F / (sigma_mm * sigma_mm);
+    for (int first = team.lane() * kWidth; first < num_points; first += team.size() * kWidth) {
+      float sum[kWidth] = {};
+      for (int j = 0; j < num_points; ++j) {
+        for (int w = 0; w < kWidth; ++w) {
+          const float dx = s.x_mm[first + w] - s.x_mm[j];
+          const float dy = s.y_mm[first + w] - s.y_mm[j];
+          const float dz = s.z_mm[first + w] - s.z_mm[j];
+          const float d2 = dx * dx + dy * dy + dz * dz;
+          const float weight = exp_minus(d2 * scale);
+          sum[w] += d2 < cutoff_mm2 ? weight : 0.0F;
+        }
+      }
+      for (int w = 0; w < kWidth; ++w) s.density[first + w] = sum[w];
+    }
+  }
+
+  /// The nearest point of higher density within tau; equal densities are ordered by position.
+  FOOTHOLD_HD void link_to_parents() const {
+    const float tau_mm = settings.tau_m * 1000.0F;
+    for (int first = team.lane() * kWidth; first < num_points; first += team.size() * kWidth) {
+      float nearest[kWidth];
+      std::int32_t parent[kWidth];
+      for (int w = 0; w < kWidth; ++w) {
+        nearest[w] = tau_mm * tau_mm;
+        parent[w] = first + w;
+      }
+      for (int j = 0; j < num_points; ++j) {
+        for (int w = 0; w < kWidth; ++w) {
+          const float dx = s.x_mm[first + w] - s.x_mm[j];
+          const float dy = s.y_mm[first + w] - s.y_mm[j];
+          const float dz = s.z_mm[first + w] - s.z_mm[j];
+          const float d2 = dx * dx + dy * dy + dz * dz;
+          const float density = s.density[first + w];
+          const bool denser = (s.density[j] > density) | ((s.density[j] == density) & (j < first + w));
+          const bool better = denser & (d2 < nearest[w]);
+          nearest[w] = better ? d2 : nearest[w];
+          parent[w] = better ? j : parent[w];
+        }
+      }
+      for (int w = 0; w < kWidth; ++w) s.parent[first + w] = parent[w];
+    }
+  }
+
+  FOOTHOLD_HD void find_roots() const {
+    for (int i = team.lane(); i < num_points; i += team.size()) {
+      std::int32_t root = i;
+      while (s.parent[root] != root) root = s.parent[root];
+      s.size[i] = root;  // parents are still being read by other lanes
+    }
+    team.sync();
+    for (int i = team.lane(); i < num_points; i += team.size()) s.parent[i] = s.size[i];
+    team.sync();
+    for (int i = team.lane(); i < num_points; i += team.size()) s.size[i] = 0;
+    team.sync();
+    for (int i = team.lane(); i < num_points; i += team.size()) team.fetch_add(s.size[s.parent[i]], 1);
+  }
+
+  /// Gives the largest clusters their ranks: size[root] becomes -(rank + 1). Ties go to the lower root.
+  FOOTHOLD_HD int rank_clusters() const {
+    int num_modes = 0;
+    for (; num_modes < settings.max_modes; ++num_modes) {
+      if (team.lane() == 0) {
+        int best = 0;
+        for (int i = 1; i < num_points; ++i) best = s.size[i] > s.size[best] ? i : best;
+        s.density[0] = s.size[best] >= settings.min_cluster_size ? 1.0F : 0.0F;  // densities have served; slot 0 tells the other lanes
+        if (s.density[0] > 0.0F) s.size[best] = -(num_modes + 1);
+      }
+      team.sync();
+      const bool found = s.density[0] > 0.0F;
+      team.sync();
+      if (!found) break;
+    }
+    return num_modes;
+  }
+
+  FOOTHOLD_HD void summarise(int rank, Mode& mode) const {
+    ClusterSums sums;
+    int root = 0;
+    while (s.size[root] != -(rank + 1)) ++root;
+    const auto root_x = static_cast<std::int64_t>(s.x_mm[root]);
+    const auto root_y = static_cast<std::int64_t>(s.y_mm[root]);
+    const auto root_z = static_cast<std::int64_t>(s.z_mm[root]);
+    for (int i = team.lane(); i < num_points; i += team.size()) {
+      if (s.parent[i] != root) continue;
+      const auto x = static_cast<std::int64_t>(s.x_mm[i]) - root_x;
+      const auto y = static_cast<std::int64_t>(s.y_mm[i]) - root_y;
+      const auto z = static_cast<std::int64_t>(s.z_mm[i]) - root_z;
+      const std::uint16_t colour = reservoirs.points.at(leaf, i).rgb565;
+      ++sums.count;
+      sums.x += x;
+      sums.y += y;
+      sums.z += z;
+      sums.xx += x * x;
+      sums.xy += x * y;
+      sums.xz += x * z;
+      sums.yy += y * y;
+      sums.yz += y * z;
+      sums.zz += z * z;
+      sums.r += red_of(colour);
+      sums.g += green_of(colour);
+      sums.b += blue_of(colour);
+    }
+    team.sum_all(reinterpret_cast<std::int64_t*>(&sums), static_cast<int>(sizeof(sums) / sizeof(std::int64_t)));
+    if (team.lane() == 0) mode = make_mode(sums, root_x, root_y, root_z);
+  }
+
+  /// Mean, regularised unbiased covariance (inverted) and mean colour.
+  FOOTHOLD_HD Mode make_mode(const ClusterSums& sums, std::int64_t root_x, std::int64_t root_y, std::int64_t root_z) const {
+    const auto n = static_cast<double>(sums.count);
+    const double x = static_cast<double>(sums.x) / n;
+    const double y = static_cast<double>(sums.y) / n;
+    const double z = static_cast<double>(sums.z) / n;
+    const double floor_mm2 = 1e6 * static_cast<double>(settings.covariance_floor_m) * static_cast<double>(settings.covariance_floor_m);
+    const double unbiased = 1.0 / (n > 1.0 ? n - 1.0 : 1.0);
+    const double xx = (static_cast<double>(sums.xx) - n * x * x) * unbiased + floor_mm2;
+    const double xy = (static_cast<double>(sums.xy) - n * x * y) * unbiased;
+    const double xz = (static_cast<double>(sums.xz) - n * x * z) * unbiased;
+    const double yy = (static_cast<double>(sums.yy) - n * y * y) * unbiased + floor_mm2;
+    const double yz = (static_cast<double>(sums.yz) - n * y * z) * unbiased;
+    const double zz = (static_cast<double>(sums.zz) - n * z * z) * unbiased + floor_mm2;
+    const double c_xx = yy * zz - yz * yz;
+    const double c_xy = xz * yz - xy * zz;
+    const double c_xz = xy * yz - xz * yy;
+    const double scale = 1e6 / (xx * c_xx + xy * c_xy + xz * c_xz);  // 1/mm^2 to 1/m^2
+    Mode mode;
+    mode.mean_m[0] = static_cast<float>((static_cast<double>(root_x) + x) * 1e-3);
+    mode.mean_m[1] = static_cast<float>((static_cast<double>(root_y) + y) * 1e-3);
+    mode.mean_m[2] = static_cast<float>((static_cast<double>(root_z) + z) * 1e-3);
+    mode.precision[0] = static_cast<float>(scale * c_xx);
+    mode.precision[1] = static_cast<float>(scale * c_xy);
+    mode.precision[2] = static_cast<float>(scale * c_xz);
+    mode.precision[3] = static_cast<float>(scale * (xx * zz - xz * xz));
+    mode.precision[4] = static_cast<float>(scale * (xy * xz - xx * yz));
+    mode.precision[5] = static_cast<float>(scale * (xx * yy - xy * xy));
+    mode.rgb[0] = static_cast<std::uint8_t>(sums.r / sums.count);
+    mode.rgb[1] = static_cast<std::uint8_t>(sums.g / sums.count);
+    mode.rgb[2] = static_cast<std::uint8_t>(sums.b / sums.count);
+    mode.reserved = 0;
+    mode.num_points = static_cast<std::uint32_t>(sums.count);
+    return mode;
+  }
+};
+
+}  // namespace foothold

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/relocalisation/forest_relocaliser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "clustering/leaf_modes.h"
+#include "features/feature_image.h"
+#include "foothold/base/binary_stream.h"
+#include "foothold/base/contract.h"
+#include "pose/pose_estimator.h"
+#include "reservoirs/leaf_reservoirs.h"
+
+namespace foothold {
+namespace {
+
+constexpr std::uint64_t kSceneMagic = 0x454e454353484fULL;
+constexpr std::uint32_t kSceneVersion = 1;
+constexpr float kRigidTolerance = 1e-2F;
+
+/// The forest's arrays in the device's memory.
+struct DeviceForest {
+  DeviceForest(MemoryKind memory, const Forest& forest)
+      : features(memory, Span<const ForestFeature>(forest.features())),
+        nodes(memory, Span<const ForestNode>(forest.nodes())),
+        roots(memory, Span<const std::int32_t>(forest.roots())),
+        num_leaves(forest.num_leaves()) {}
+
+  ForestView view() const { return {features.data(), nodes.data(), roots.data(), static_cast<int>(roots.size()), num_leaves}; }
+
+  Array<ForestFeature> features;
+  Array<ForestNode> nodes;
+  Array<std::int32_t> roots;
+  int num_leaves;
+};
+
+/// Probability that a candidate is right, from what its pose explains.
+float confidence_of(const PoseCandidate& candidate) { return candidate.inlier_fraction; }
+
+void expect_usable(const Context& context, const Frame& frame) {
+  FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
+  FOOTHOLD_EXPECTS(frame.depth.memory == context.memory());
+}
+
+}  // namespace
+
+struct ForestRelocaliser::State {
+  State(const Context& the_context, Forest the_forest, const ForestRelocaliserSettings& the_settings)
+      : context(the_context),
+        forest(std::move(the_forest)),
+        settings(the_settings),
+        device_forest(context.memory(), forest),
+        image(context),
+        examples(context.memory()),
+        reservoirs(context, forest.num_leaves(), settings.reservoirs, settings.seed),
+        modes(context, forest.num_leaves(), settings.clustering),
+        estimator(context, settings.pose) {}
+
+  Context context;
+  Forest forest;
+  ForestRelocaliserSettings settings;
+  DeviceForest device_forest;
+  FeatureImage image;
+  TrainingExamples examples;
+  LeafReservoirs reservoirs;
+  LeafModes modes;
+  PoseEstimator estimator;
+};
+
+ForestRelocaliser::ForestRelocaliser(const Context& context, Forest forest, const ForestRelocaliserSettings& settings) {
+  settings.validate();
+  state_ = std::make_unique<State>(context, std::move(forest), settings);
+}
+
+ForestRelocaliser::~ForestRelocaliser() = default;
+ForestRelocaliser::ForestRelocaliser(ForestRelocaliser&&) noexcept = default;
+ForestRelocaliser& ForestRelocaliser::operator=(ForestRelocaliser&&) noexcept = default;
+ForestRelocaliser::ForestRelocaliser(const ForestRelocaliser& other)
+    : Relocaliser(other), Persistent(other), state_(std::make_unique<State>(*other.state_)) {}
+ForestRelocaliser& ForestRelocaliser::operator=(const ForestRelocaliser& other) {
+  state_ = std::make_unique<State>(*other.state_);
+  return *this;
+}
+
+const Forest& ForestRelocaliser::forest() const { return state_->forest; }
+const ForestRelocaliserSettings& ForestRelocaliser::settings() const { return state_->settings; }
+float ForestRelocaliser::acceptance_threshold() const { return state_->settings.acceptance_threshold; }
+std::size_t ForestRelocaliser::state_bytes() const { return state_->reservoirs.state_bytes() + state_->modes.state_bytes(); }
+
+void ForestRelocaliser::train(const Frame& frame, const SE3& world_from_camera) {
+  State& s = *state_;
+  expect_usable(s.context, frame);
+  FOOTHOLD_EXPECTS(is_rigid(world_from_camera, kRigidTolerance));
+  {
+    const ScopedStage stage(s.context, "train/features");
+    s.image.compute(s.context, frame, s.settings.features.downscale);
+    s.reservoirs.sample(s.context, frame, s.image, world_from_camera, s.examples);
+    s.examples.leaves.resize(s.examples.pixels.size() * static_cast<std::size_t>(s.forest.num_trees()));
+    find_leaves(s.context, s.image, s.device_forest.view(), Span<const SampledPixel>(s.examples.pixels),
+                Span<std::uint32_t>(s.examples.leaves));
+  }
+  {
+    const ScopedStage stage(s.context, "train/insert");
+    s.reservoirs.insert(s.context, s.examples);
+  }
+  const ScopedStage stage(s.context, "train/cluster");
+  s.modes.update(s.context, s.reservoirs);
+}
+
+void ForestRelocaliser::update() {
+  const ScopedStage stage(state_->context, "update/cluster");
+  state_->modes.update(state_->context, state_->reservoirs);
+}
+
+std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) {
+  State& s = *state_;
+  expect_usable(s.context, frame);
+  if (s.reservoirs.num_frames() == 0) return {};
+  {
+    const ScopedStage stage(s.context, "relocalise/features");
+    s.image.compute(s.context, frame, s.settings.features.downscale);
+  }
+  std::vector<PoseEstimate> estimates;
+  for (const PoseCandidate& candidate : s.estimator.estimate(s.context, frame, s.image, s.device_forest.view(), s.modes.view())) {
+    SE3 world_from_camera = candidate.scene_from_camera;
+    world_from_camera.rotation = nearest_rotation(world_from_camera.rotation);
+    world_from_camera.translation += s.reservoirs.origin_world();
+    estimates.push_back({world_from_camera, confidence_of(candidate)});
+  }
+  return estimates;
+}
+
+void ForestRelocaliser::reset() {
+  state_->reservoirs.clear();
+  state_->modes.clear();
+}
+
+void ForestRelocaliser::save(std::ostream& stream) const {
+  const State& s = *state_;
+  write_value(stream, kSceneMagic);
+  write_value(stream, kSceneVersion);
+  write_value(stream, s.forest.fingerprint());
+  write_value(stream, s.settings.reservoirs.capacity);
+  write_value(stream, s.settings.clustering.max_modes);
+  s.reservoirs.save(stream);
+  s.modes.save(stream);
+  if (!stream) throw FileError("the relocaliser's scene could not be written: the stream failed");
+}
+
+void ForestRelocaliser::load(std::istream& stream) {
+  State& s = *state_;
+  if (read_value<std::uint64_t>(stream, "magic") != kSceneMagic) throw FileError("the saved scene is not one of a forest relocaliser");
+  const auto version = read_value<std::uint32_t>(stream, "version");
+  if (version != kSceneVersion) {
+    throw FileError("the saved scene has version " + std::to_string(version) + ", expected " + std::to_string(kSceneVersion));
+  }
+  if (read_value<std::uint64_t>(stream, "forest fingerprint") != s.forest.fingerprint()) {
+    throw FileError("the saved scene was learnt with another forest; load that forest first");
+  }
+  const auto capacity = read_value<int>(stream, "reservoir capacity");
+  const auto max_modes = read_value<int>(stream, "number of modes");
+  if (capacity != s.settings.reservoirs.capacity || max_modes != s.settings.clustering.max_modes) {
+    throw FileError("the saved scene has reservoirs.capacity = " + std::to_string(capacity) +
+                    " and clustering.max_modes = " + std::to_string(max_modes) + ", expected " +
+                    std::to_string(s.settings.reservoirs.capacity) + " and " + std::to_string(s.settings.clustering.max_modes));
+  }
+  LeafReservoirs reservoirs(s.context, s.forest.num_leaves(), s.settings.reservoirs, s.settings.seed);
+  LeafModes modes(s.context, s.forest.num_leaves(), s.settings.clustering);
+  reservoirs.load(stream);
+  modes.load(stream);
+  s.reservoirs = std::move(reservoirs);
+  s.modes = std::move(modes);
+}
+
+}  // namespace foothold

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Drawing hypotheses: triples of pixels with one mode each that pass the paper's three checks. Reference: [Cavallari2017] Sec. 2.2.3.
+#pragma once
+
+#include <limits>
+
+#include "foothold/base/random.h"
+#include "pose/kabsch.h"
+#include "pose/pose_estimator.h"
+
+namespace foothold {
+
+FOOTHOLD_HD inline Eigen::Vector3f point_of(const PooledPixel& pixel) {
+  return {pixel.point_camera[0], pixel.point_camera[1], pixel.point_camera[2]};
+}
+FOOTHOLD_HD inline Eigen::Vector3f mean_of(const Mode& mode) { return {mode.mean_m[0], mode.mean_m[1], mode.mean_m[2]}; }
+
+/// The largest difference over the channels [grey levels].
+FOOTHOLD_HD inline int colour_difference(const std::uint8_t* a, const std::uint8_t* b) {
+  int largest = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int difference = a[k] > b[k] ? a[k] - b[k] : b[k] - a[k];
+    largest = difference > largest ? difference : largest;
+  }
+  return largest;
+}
+
+/// Draws one hypothesis; its energy starts at zero, or at infinity if every draw failed.
+struct DrawHypothesis {
+  CorrespondencePoolView pool;
+  PoseEstimatorSettings settings;
+  SE3* hypotheses;
+  float* energies;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    energies[i] = std::numeric_limits<float>::infinity();
+    hypotheses[i] = SE3{};
+    const std::uint32_t num_pixels = *pool.num_pixels;
+    if (num_pixels < 3) return;
+    Random random(settings.seed, i);
+    for (int draw = 0; draw < settings.max_draws; ++draw) {
+      if (!draw_triple(random, num_pixels, hypotheses[i])) continue;
+      energies[i] = 0.0F;
+      return;
+    }
+  }
+
+ private:
+  FOOTHOLD_HD bool draw_triple(Random& random, std::uint32_t num_pixels, SE3& scene_from_camera) const {
+    Eigen::Vector3f camera[3];
+    Eigen::Vector3f scene[3];
+    for (int k = 0; k < 3; ++k) {
+      const PooledPixel& pixel = pool.pixels[random.below(num_pixels)];
+      camera[k] = point_of(pixel);
+      const Mode* mode = settings.scan_modes && k > 0 ? find_rigid_mode(random, pixel, camera, scene, k)
+                                                      : pool.modes + pixel.first_mode + random.below(pixel.num_modes);
+      if (mode == nullptr) return false;
+      if (k == 0 && colour_difference(pixel.rgb, mode->rgb) > settings.max_colour_difference) return false;  // check 1
+      scene[k] = mean_of(*mode);
+      if (!settings.scan_modes && !is_rigid_with(camera, scene, k)) return false;
+    }
+    return fit_rigid_to_triple(camera, scene, scene_from_camera);
+  }
+
+  /// Checks 2 and 3 of point k against the points before it: far enough apart, and as far apart in the scene as in the camera.
+  FOOTHOLD_HD bool is_rigid_with(const Eigen::Vector3f* camera, const Eigen::Vector3f* scene, int k) const {
+    for (int j = 0; j < k; ++j) {
+      const float in_camera = (camera[k] - camera[j]).norm();
+      const float in_scene = (scene[k] - scene[j]).norm();
+      if (in_camera < settings.min_triple_spread_m || in_scene < settings.min_triple_spread_m) return false;
+      if (std::fabs(in_camera - in_scene) > settings.max_rigidity_error_m) return false;
+    }
+    return true;
+  }
+
+  /// A mode of the pixel that passes checks 2 and 3, chosen evenly among all that do; nullptr if none does.
+  FOOTHOLD_HD const Mode* find_rigid_mode(Random& random, const PooledPixel& pixel, const Eigen::Vector3f* camera, Eigen::Vector3f* scene,
+                                          int k) const {
+    for (int j = 0; j < k; ++j) {
+      if ((camera[k] - camera[j]).norm() < settings.min_triple_spread_m) return nullptr;
+    }
+    const Mode* chosen = nullptr;
+    std::uint32_t num_rigid = 0;
+    for (std::uint32_t m = 0; m < pixel.num_modes; ++m) {
+      const Mode& mode = pool.modes[pixel.first_mode + m];
+      scene[k] = mean_of(mode);
+      if (!is_rigid_with(camera, scene, k)) continue;
+      if (random.below(++num_rigid) == 0) chosen = &mode;
+    }
+    return chosen;
+  }
+};
+
+}  // namespace foothold

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The pool: a few thousand pixels with their modes, which stand for the whole frame in everything that follows.
+#pragma once
+
+#include "foothold/base/random.h"
+#include "pose/pose_estimator.h"
+#include "reservoirs/leaf_reservoirs_kernels.h"
+
+namespace foothold {
+
+/// Places sample i of a low-discrepancy sequence, whose every prefix covers the image evenly; moves on where there is no depth.
+struct SamplePoolPixel {
+  ImageView<const float> depth;
+  float shift_u;
+  float shift_v;
+  std::uint32_t pool_size;
+  SampledPixel* sampled;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    constexpr int kTries = 8;
+    // The R2 sequence [Roberts2018] in 32-bit fixed point: multiples of 1/phi and 1/phi^2, with phi^3 = phi + 1.
+    constexpr std::uint32_t kStepU = 3242174889U;
+    constexpr std::uint32_t kStepV = 2447445414U;
+    for (int k = 0; k < kTries; ++k) {
+      const auto n = static_cast<std::uint32_t>(i) + static_cast<std::uint32_t>(k) * pool_size + 1U;
+      const std::uint32_t fixed_u = n * kStepU + static_cast<std::uint32_t>(shift_u * 4294967040.0F);
+      const std::uint32_t fixed_v = n * kStepV + static_cast<std::uint32_t>(shift_v * 4294967040.0F);
+      const auto u = static_cast<int>((static_cast<std::uint64_t>(fixed_u) * static_cast<std::uint64_t>(depth.width)) >> 32U);
+      const auto v = static_cast<int>((static_cast<std::uint64_t>(fixed_v) * static_cast<std::uint64_t>(depth.height)) >> 32U);
+      const float depth_m = depth(u, v);
+      if (!is_valid_depth(depth_m)) continue;
+      sampled[i] = {static_cast<std::int16_t>(u), static_cast<std::int16_t>(v), depth_m};
+      return;
+    }
+    sampled[i] = {};
+  }
+};
+
+/// Counts the modes of the leaves that a sampled pixel reaches.
+struct CountModes {
+  LeafModesView leaf_modes;
+  int num_trees;
+  std::uint32_t num_leaves;
+  std::size_t pool_size;
+  const std::uint32_t* leaves;
+  std::uint32_t* mode_counts;
+  std::uint32_t* has_modes;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    std::uint32_t count = 0;
+    for (int tree = 0; tree < num_trees; ++tree) {
+      const std::uint32_t leaf = leaves[static_cast<std::size_t>(tree) * pool_size + i];
+      if (leaf < num_leaves) count += leaf_modes.num_modes[leaf];
+    }
+    mode_counts[i] = count;
+    has_modes[i] = count > 0 ? 1 : 0;
+  }
+};
+
+/// Packs the pixels that have modes, with their modes behind one another.
+struct GatherPixel {
+  Intrinsics intrinsics;
+  FeatureImageView image;
+  int downscale;
+  LeafModesView leaf_modes;
+  int num_trees;
+  std::uint32_t num_leaves;
+  std::size_t pool_size;
+  const SampledPixel* sampled;
+  const std::uint32_t* leaves;
+  const std::uint32_t* mode_counts;
+  const std::uint32_t* first_modes;
+  const std::uint32_t* slots;
+  PooledPixel* pixels;
+  Mode* modes;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    if (mode_counts[i] == 0) return;
+    const SampledPixel& at = sampled[i];
+    const Eigen::Vector3f point = intrinsics.back_project(at.u, at.v, at.depth_m);
+    const FeaturePixel& colour =
+        image.pixels[clamp_index(at.v / downscale, image.height) * image.width + clamp_index(at.u / downscale, image.width)];
+    PooledPixel pixel;
+    for (int k = 0; k < 3; ++k) pixel.point_camera[k] = point[k];
+    pixel.first_mode = first_modes[i];
+    pixel.num_modes = static_cast<std::uint16_t>(mode_counts[i]);
+    pixel.rgb[0] = static_cast<std::uint8_t>(colour.r);
+    pixel.rgb[1] = static_cast<std::uint8_t>(colour.g);
+    pixel.rgb[2] = static_cast<std::uint8_t>(colour.b);
+    pixel.reserved = 0;
+    pixels[slots[i]] = pixel;
+    std::uint32_t next = first_modes[i];
+    for (int tree = 0; tree < num_trees; ++tree) {
+      const std::uint32_t leaf = leaves[static_cast<std::size_t>(tree) * pool_size + i];
+      if (leaf >= num_leaves) continue;
+      for (std::uint32_t k = 0; k < leaf_modes.num_modes[leaf]; ++k) modes[next++] = leaf_modes.modes.at(leaf, static_cast<int>(k));
+    }
+  }
+};
+
+}  // namespace foothold

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "pose/pose_estimator.h"
+
+#include <algorithm>
+
+#include "foothold/base/exec/dispatch.h"
+#include "pose/pose_estimator_kernels.h"
+
+namespace foothold {
+
+#ifdef FOOTHOLD_HAS_CUDA
+extern template struct PoseAlgorithms<CudaExecutor>;
+#endif
+
+PoseEstimator::Buffers::Buffers(MemoryKind memory)
+    : sampled(memory),
+      leaves(memory),
+      mode_counts(memory),
+      first_modes(memory),
+      has_modes(memory),
+      slots(memory),
+      pixels(memory),
+      modes(memory),
+      hypotheses(memory),
+      energies(memory),
+      order(memory),
+      sort_buffer(memory),
+      nearest(memory),
+      candidates(memory) {}
+
+PoseEstimator::PoseEstimator(const Context& context, const PoseEstimatorSettings& settings)
+    : settings_(settings), buffers_(context.memory()) {
+  const auto pool_size = static_cast<std::size_t>(settings.pool_size);
+  const auto num_hypotheses = static_cast<std::size_t>(settings.num_hypotheses);
+  buffers_.sampled.resize(pool_size);
+  buffers_.mode_counts.resize(pool_size);
+  buffers_.first_modes.resize(pool_size + 1);
+  buffers_.has_modes.resize(pool_size);
+  buffers_.slots.resize(pool_size + 1);
+  buffers_.pixels.resize(pool_size);
+  buffers_.hypotheses.resize(num_hypotheses);
+  buffers_.energies.resize(num_hypotheses);
+  buffers_.order.resize(num_hypotheses);
+  constexpr std::size_t kLargestGroup = 16;
+  const std::size_t refined = (static_cast<std::size_t>(settings.cull_survivors) + kLargestGroup - 1) / kLargestGroup * kLargestGroup;
+  buffers_.nearest.resize(refined * pool_size);
+  buffers_.candidates.resize(static_cast<std::size_t>(std::min(settings.num_candidates, settings.num_hypotheses)));
+}
+
+std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const Frame& frame, const FeatureImage& image,
+                                                   const ForestView& forest, const LeafModesView& leaf_modes) {
+  const auto pool_size = static_cast<std::size_t>(settings_.pool_size);
+  const auto num_trees = static_cast<std::size_t>(forest.num_trees);
+  buffers_.leaves.resize(pool_size * num_trees);
+  buffers_.modes.resize(pool_size * num_trees * static_cast<std::size_t>(leaf_modes.modes.max_blocks * kModeBlockSize));
+  const PoseProblem problem{context, frame, image, forest, leaf_modes, settings_};
+  dispatch(context, [&](auto on) {
+    using Algorithms = PoseAlgorithms<typename decltype(on)::Executor>;
+    {
+      const ScopedStage stage(context, "relocalise/correspondences");
+      Algorithms::fill_pool(problem, buffers_);
+    }
+    {
+      const ScopedStage stage(context, "relocalise/hypotheses");
+      Algorithms::draw_hypotheses(problem, buffers_);
+    }
+    {
+      const ScopedStage stage(context, "relocalise/ransac");
+      Algorithms::preempt(problem, buffers_);
+    }
+    const ScopedStage stage(context, "relocalise/refine");
+    Algorithms::finish(problem, buffers_);
+  });
+  std::vector<PoseCandidate> candidates = buffers_.candidates.to_host();
+  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), [](const PoseCandidate& c) { return c.valid == 0; }),
+                   candidates.end());
+  return candidates;
+}
+
+}  // namespace foothold

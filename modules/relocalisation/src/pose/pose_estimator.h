@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// From leaves to poses: hypotheses, culls, pre-emptive RANSAC and refinement. Reference: [Cavallari2017] Sec. 2.2.3, Eq. 4; [Chum2003].
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "clustering/leaf_modes.h"
+#include "features/feature_image.h"
+#include "foothold/base/array.h"
+#include "foothold/base/context.h"
+#include "foothold/base/se3.h"
+#include "foothold/relocalisation/settings.h"
+
+namespace foothold {
+
+/// A pooled pixel: its camera point, its colour and its modes, which stand together in the pool's mode array.
+struct PooledPixel {
+  float point_camera[3];  ///< [m]
+  std::uint32_t first_mode;
+  std::uint16_t num_modes;
+  std::uint8_t rgb[3];
+  std::uint8_t reserved;
+};
+static_assert(sizeof(PooledPixel) == 24, "read by kernels");
+
+/// What kernels see of the pool. Its pixels are spread evenly over the image in any prefix, so "n samples" means the first n.
+struct CorrespondencePoolView {
+  const PooledPixel* pixels = nullptr;
+  const Mode* modes = nullptr;
+  const std::uint32_t* num_pixels = nullptr;  ///< pixels with at least one mode; in device memory
+};
+
+/// A hypothesis that came far, with what its pose explains of the whole pool.
+struct PoseCandidate {
+  SE3 scene_from_camera;
+  float mean_energy = 0.0F;      ///< truncated Mahalanobis distance per pooled pixel, Eq. 4
+  float inlier_fraction = 0.0F;  ///< pooled pixels with a mode within kInlierDistanceM, among all pooled pixels with depth
+  float fine_fraction = 0.0F;    ///< the same within kFineInlierDistanceM
+  std::int32_t valid = 0;
+};
+static_assert(sizeof(PoseCandidate) == 64, "copied from the device");
+
+inline constexpr float kInlierDistanceM = 0.05F;
+inline constexpr float kFineInlierDistanceM = 0.025F;
+
+/// Estimates the camera of a frame from the modes its pixels reach.
+///
+/// Determinism: a function of the arguments and settings.seed, whatever the number of threads.
+/// Cost: O(hypotheses x samples x modes); buffers are kept, so that a second call allocates nothing.
+class PoseEstimator {
+ public:
+  PoseEstimator(const Context& context, const PoseEstimatorSettings& settings);
+
+  /// @return Candidates, best first. Empty if no triple passed the geometric checks: a normal outcome, not an error.
+  std::vector<PoseCandidate> estimate(const Context& context, const Frame& frame, const FeatureImage& image, const ForestView& forest,
+                                      const LeafModesView& leaf_modes);
+
+  /// Buffers of the algorithm; see pose_estimator_kernels.h.
+  struct Buffers {
+    explicit Buffers(MemoryKind memory);
+    Array<SampledPixel> sampled;
+    Array<std::uint32_t> leaves;
+    Array<std::uint32_t> mode_counts;
+    Array<std::uint32_t> first_modes;
+    Array<std::uint32_t> has_modes;
+    Array<std::uint32_t> slots;
+    Array<PooledPixel> pixels;
+    Array<Mode> modes;
+    Array<SE3> hypotheses;
+    Array<float> energies;
+    Array<std::uint64_t> order;  ///< sort keys: energy above, hypothesis below
+    Array<std::uint64_t> sort_buffer;
+    Array<std::uint16_t> nearest;  ///< hypotheses x samples: position of the nearest mode
+    Array<PoseCandidate> candidates;
+  };
+
+ private:
+  PoseEstimatorSettings settings_;
+  Buffers buffers_;
+};
+
+}  // namespace foothold

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The algorithm of pose_estimator.h, for both devices. Its steps are in pool_, hypothesis_, score_ and refine_kernels.h.
+#pragma once
+
+#include "pose/hypothesis_kernels.h"
+#include "pose/pool_kernels.h"
+#include "pose/pose_estimator.h"
+#include "pose/refine_kernels.h"
+#include "pose/score_kernels.h"
+
+namespace foothold {
+
+/// What a relocalisation works on.
+struct PoseProblem {
+  const Context& context;
+  const Frame& frame;
+  const FeatureImage& image;
+  ForestView forest;
+  LeafModesView leaf_modes;
+  const PoseEstimatorSettings& settings;
+};
+
+template <class Executor>
+struct PoseAlgorithms {
+  static void fill_pool(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
+  static void draw_hypotheses(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
+  static void preempt(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
+  static void finish(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
+};
+
+/// The verbs of the pre-emptive loop on one set of hypotheses.
+template <class Executor>
+class HypothesisSet {
+ public:
+  HypothesisSet(const PoseProblem& problem, PoseEstimator::Buffers& buffers)
+      : executor_(problem.context),
+        settings_(problem.settings),
+        buffers_(buffers),
+        pool_{buffers.pixels.data(), buffers.modes.data(), buffers.slots.data() + settings_.pool_size} {}
+
+  CorrespondencePoolView pool() const { return pool_; }
+
+  void score(std::size_t num_active, int first_sample, int last_sample, bool restart) const {
+    executor_.template for_each_team<NoScratch>(
+        num_groups(num_active),
+        ScoreGroup<Executor>{pool_, buffers_.hypotheses.data(), buffers_.order.data(), num_active, static_cast<std::uint32_t>(first_sample),
+                             static_cast<std::uint32_t>(last_sample), settings_.energy_truncation, restart, buffers_.energies.data()});
+  }
+
+  /// Orders the first hypotheses by rising energy.
+  void sort(std::size_t num_active, bool first_time = false) const {
+    executor_.for_each(num_active, MakeEnergyKey{buffers_.energies.data(), buffers_.order.data(), first_time});
+    if (!first_time) executor_.sort(Span<std::uint64_t>(buffers_.order.data(), num_active), buffers_.sort_buffer, 32, 64);
+  }
+
+  void refine(std::size_t num_active, int num_samples, int num_iterations) const {
+    const auto samples = static_cast<std::uint32_t>(num_samples < settings_.pool_size ? num_samples : settings_.pool_size);
+    executor_.template for_each_team<NoScratch>(
+        num_groups(num_active), AssignModes<Executor>{pool_, buffers_.hypotheses.data(), buffers_.order.data(), num_active, samples,
+                                                      settings_.refinement_radius_m, buffers_.nearest.data()});
+    executor_.template for_each_team<NoScratch>(
+        num_active, RefineHypothesis<Executor>{pool_, buffers_.order.data(), samples, buffers_.nearest.data(), num_iterations,
+                                               buffers_.hypotheses.data()});
+  }
+
+  static std::size_t num_groups(std::size_t num_active) {
+    constexpr std::size_t kWidth = Executor::kVectorWidth;
+    return (num_active + kWidth - 1) / kWidth;
+  }
+  const Executor& executor() const { return executor_; }
+
+ private:
+  Executor executor_;
+  const PoseEstimatorSettings& settings_;
+  PoseEstimator::Buffers& buffers_;
+  CorrespondencePoolView pool_;
+};
+
+template <class Executor>
+void PoseAlgorithms<Executor>::fill_pool(const PoseProblem& problem, PoseEstimator::Buffers& buffers) {
+  const Executor executor(problem.context);
+  const auto pool_size = static_cast<std::size_t>(problem.settings.pool_size);
+  const auto num_leaves = static_cast<std::uint32_t>(problem.forest.num_leaves);
+  Random random(problem.settings.seed, ~std::uint64_t{0});
+  const float shift_u = random.uniform();
+  executor.for_each(pool_size, SamplePoolPixel{problem.frame.depth, shift_u, random.uniform(), static_cast<std::uint32_t>(pool_size),
+                                               buffers.sampled.data()});
+  find_leaves(problem.context, problem.image, problem.forest, Span<const SampledPixel>(buffers.sampled),
+              Span<std::uint32_t>(buffers.leaves));
+  executor.for_each(pool_size, CountModes{problem.leaf_modes, problem.forest.num_trees, num_leaves, pool_size, buffers.leaves.data(),
+                                          buffers.mode_counts.data(), buffers.has_modes.data()});
+  executor.exclusive_scan(Span<const std::uint32_t>(buffers.mode_counts), Span<std::uint32_t>(buffers.first_modes));
+  executor.exclusive_scan(Span<const std::uint32_t>(buffers.has_modes), Span<std::uint32_t>(buffers.slots));
+  executor.for_each(pool_size, GatherPixel{problem.frame.calibration.depth, problem.image.view(), problem.image.downscale(),
+                                           problem.leaf_modes, problem.forest.num_trees, num_leaves, pool_size, buffers.sampled.data(),
+                                           buffers.leaves.data(), buffers.mode_counts.data(), buffers.first_modes.data(),
+                                           buffers.slots.data(), buffers.pixels.data(), buffers.modes.data()});
+}
+
+template <class Executor>
+void PoseAlgorithms<Executor>::draw_hypotheses(const PoseProblem& problem, PoseEstimator::Buffers& buffers) {
+  const HypothesisSet<Executor> set(problem, buffers);
+  const auto num_hypotheses = static_cast<std::size_t>(problem.settings.num_hypotheses);
+  set.executor().for_each(num_hypotheses, DrawHypothesis{set.pool(), problem.settings, buffers.hypotheses.data(), buffers.energies.data()});
+  set.sort(num_hypotheses, true);
+}
+
+template <class Executor>
+void PoseAlgorithms<Executor>::preempt(const PoseProblem& problem, PoseEstimator::Buffers& buffers) {
+  const PoseEstimatorSettings& settings = problem.settings;
+  const HypothesisSet<Executor> set(problem, buffers);
+  auto num_active = static_cast<std::size_t>(settings.num_hypotheses);
+  const auto keep = [&](std::size_t count) { num_active = count < num_active ? count : num_active; };
+
+  // The cull.
+  set.score(num_active, 0, settings.first_cull_samples, false);
+  set.sort(num_active);
+  if (settings.first_cull_samples < settings.cull_samples) {
+    keep(static_cast<std::size_t>(settings.first_cull_survivors));
+    set.score(num_active, settings.first_cull_samples, settings.cull_samples, false);
+    set.sort(num_active);
+  }
+  keep(static_cast<std::size_t>(settings.cull_survivors));
+
+  // Pre-emptive rounds: more samples, better poses, half as many. Losers keep their places behind the winners.
+  int num_samples = settings.cull_samples;
+  while (num_active > 1) {
+    num_samples += settings.round_samples;
+    set.refine(num_active, num_samples, settings.refinement_iterations);
+    set.score(num_active, 0, num_samples, true);
+    set.sort(num_active);
+    num_active = num_active / 2;
+  }
+}
+
+template <class Executor>
+void PoseAlgorithms<Executor>::finish(const PoseProblem& problem, PoseEstimator::Buffers& buffers) {
+  constexpr int kFinalRounds = 3;  // modes are assigned anew before each
+  const PoseEstimatorSettings& settings = problem.settings;
+  const HypothesisSet<Executor> set(problem, buffers);
+  for (int round = 0; round < kFinalRounds; ++round) set.refine(1, settings.pool_size, settings.final_iterations);
+  const std::size_t num_candidates = buffers.candidates.size();
+  set.executor().template for_each_team<NoScratch>(
+      set.num_groups(num_candidates),
+      EvaluateCandidates<Executor>{set.pool(), buffers.sampled.data(), static_cast<std::size_t>(settings.pool_size),
+                                   buffers.hypotheses.data(), buffers.energies.data(), buffers.order.data(), num_candidates,
+                                   settings.energy_truncation, buffers.candidates.data()});
+}
+
+}  // namespace foothold

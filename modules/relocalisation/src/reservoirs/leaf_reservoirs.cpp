@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "reservoirs/leaf_reservoirs.h"
+
+#include <algorithm>
+
+#include "foothold/base/binary_stream.h"
+#include "foothold/base/exec/dispatch.h"
+#include "foothold/base/random.h"
+#include "reservoirs/leaf_reservoirs_kernels.h"
+
+namespace foothold {
+
+#ifdef FOOTHOLD_HAS_CUDA
+extern template struct ReservoirAlgorithms<CudaExecutor>;
+#endif
+
+namespace {
+enum Stream : std::uint64_t { kSamplingStream, kReplacementStream };
+}  // namespace
+
+LeafReservoirs::LeafReservoirs(const Context& context, int num_leaves, const ReservoirSettings& settings, std::uint64_t seed)
+    : settings_(settings),
+      seed_(seed),
+      num_leaves_(num_leaves),
+      points_(context.memory(), num_leaves, settings.capacity),
+      num_seen_(context.memory(), static_cast<std::size_t>(num_leaves)),
+      num_changed_(context.memory(), static_cast<std::size_t>(num_leaves)),
+      keys_(context.memory()),
+      sort_buffer_(context.memory()),
+      new_blocks_(context.memory()),
+      first_new_block_(context.memory()) {
+  clear();
+}
+
+void LeafReservoirs::clear() {
+  num_frames_ = 0;
+  points_.clear();
+  num_seen_.clear_to_zero();
+  num_changed_.clear_to_zero();
+}
+
+LeafReservoirsView LeafReservoirs::view() {
+  return {points_.view(), num_seen_.data(), num_changed_.data(), num_leaves_, settings_.capacity, derive_seed(seed_, kReplacementStream)};
+}
+
+std::size_t LeafReservoirs::state_bytes() const { return points_.state_bytes() + num_seen_.num_bytes() + num_changed_.num_bytes(); }
+
+void LeafReservoirs::sample(const Context& context, const Frame& frame, const FeatureImage& image, const SE3& world_from_camera,
+                            TrainingExamples& examples) {
+  if (num_frames_ == 0) origin_world_ = world_from_camera.translation;
+  const int spacing = settings_.grid_spacing_px;
+  const int grid_width = (frame.depth.width + spacing - 1) / spacing;
+  const int grid_height = (frame.depth.height + spacing - 1) / spacing;
+  const std::size_t num_cells = static_cast<std::size_t>(grid_width) * static_cast<std::size_t>(grid_height);
+  examples.pixels.resize(num_cells);
+  examples.points.resize(num_cells);
+  const SE3 scene_from_camera{world_from_camera.rotation, world_from_camera.translation - origin_world_};
+  const SampleTrainingPixel body{frame,
+                                 image.view(),
+                                 image.downscale(),
+                                 scene_from_camera,
+                                 grid_width,
+                                 spacing,
+                                 settings_.jitter,
+                                 derive_seed(derive_seed(seed_, kSamplingStream), num_frames_),
+                                 examples.pixels.data(),
+                                 examples.points.data()};
+  dispatch(context, [&](auto on) { ReservoirAlgorithms<typename decltype(on)::Executor>::sample(context, body, num_cells); });
+  ++num_frames_;
+}
+
+void LeafReservoirs::insert(const Context& context, const TrainingExamples& examples) {
+  const std::size_t num_keys = examples.leaves.size();
+  keys_.resize(num_keys);
+  new_blocks_.resize(num_keys);
+  first_new_block_.resize(num_keys + 1);
+  const InsertionBuffers buffers{keys_, sort_buffer_, new_blocks_, first_new_block_};
+  dispatch(context, [&](auto on) {
+    ReservoirAlgorithms<typename decltype(on)::Executor>::insert(context, view(), examples, buffers, points_.num_used_blocks());
+  });
+}
+
+void LeafReservoirs::save(std::ostream& stream) const {
+  write_value(stream, num_frames_);
+  write_value(stream, origin_world_.x());
+  write_value(stream, origin_world_.y());
+  write_value(stream, origin_world_.z());
+  write_array(stream, num_seen_.to_host());
+  write_array(stream, num_changed_.to_host());
+  write_array(stream, points_.blocks_to_host());
+  write_array(stream, points_.used_pool_to_host());
+}
+
+void LeafReservoirs::load(std::istream& stream) {
+  const auto num_frames = read_value<std::uint64_t>(stream, "frame count");
+  Eigen::Vector3f origin;
+  for (int i = 0; i < 3; ++i) origin[i] = read_value<float>(stream, "origin");
+  if (!origin.allFinite()) throw FileError("the saved scene has an origin that is not finite");
+  const auto num_leaves = static_cast<std::uint64_t>(num_leaves_);
+  const int max_blocks = decltype(points_)::View::blocks_for(settings_.capacity);
+  const std::uint64_t num_blocks = num_leaves * static_cast<std::uint64_t>(max_blocks);
+  const auto num_seen = read_array<std::uint32_t>(stream, "reservoir counts", num_leaves, num_leaves);
+  const auto num_changed = read_array<std::uint32_t>(stream, "change counts", num_leaves, num_leaves);
+  const auto blocks = read_array<std::int32_t>(stream, "block references", num_blocks, num_blocks);
+  const auto pool = read_array<ReservoirPoint>(stream, "reservoir points", 0, num_blocks * kReservoirBlockSize);
+  const auto num_used = static_cast<std::int64_t>(pool.size() / kReservoirBlockSize);
+  for (std::uint64_t leaf = 0; leaf < num_leaves; ++leaf) {
+    const int stored = static_cast<int>(std::min<std::uint64_t>(num_seen[leaf], static_cast<std::uint64_t>(settings_.capacity)));
+    for (int k = 0; k < decltype(points_)::View::blocks_for(stored); ++k) {
+      const std::int32_t block = blocks[leaf * static_cast<std::uint64_t>(max_blocks) + static_cast<std::uint64_t>(k)];
+      if (block < 0 || block >= num_used)
+        throw FileError("the saved scene refers to reservoir block " + std::to_string(block) + ", there are " + std::to_string(num_used));
+    }
+  }
+  num_frames_ = num_frames;
+  origin_world_ = origin;
+  num_seen_.assign(Span<const std::uint32_t>(num_seen));
+  num_changed_.assign(Span<const std::uint32_t>(num_changed));
+  points_.restore(Span<const ReservoirPoint>(pool), Span<const std::int32_t>(blocks));
+}
+
+}  // namespace foothold

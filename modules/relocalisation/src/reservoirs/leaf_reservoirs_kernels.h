@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The bodies of leaf_reservoirs.h, for both devices.
+#pragma once
+
+#include <cmath>
+
+#include "features/feature_image_kernels.h"
+#include "foothold/base/random.h"
+#include "reservoirs/leaf_reservoirs.h"
+
+namespace foothold {
+
+/// R p + t in a fixed order of operations, so that every device rounds alike.
+FOOTHOLD_HD inline Eigen::Vector3f transform_point(const SE3& target_from_source, const Eigen::Vector3f& p) {
+  const Eigen::Matrix3f& r = target_from_source.rotation;
+  const Eigen::Vector3f& t = target_from_source.translation;
+  return {((r(0, 0) * p.x() + r(0, 1) * p.y()) + r(0, 2) * p.z()) + t.x(), ((r(1, 0) * p.x() + r(1, 1) * p.y()) + r(1, 2) * p.z()) + t.y(),
+          ((r(2, 0) * p.x() + r(2, 1) * p.y()) + r(2, 2) * p.z()) + t.z()};
+}
+
+FOOTHOLD_HD inline std::uint16_t pack_rgb565(const FeaturePixel& pixel) {
+  return static_cast<std::uint16_t>(((pixel.r >> 3) << 11) | ((pixel.g >> 2) << 5) | (pixel.b >> 3));
+}
+FOOTHOLD_HD inline int red_of(std::uint16_t rgb565) { return ((rgb565 >> 11) & 31) * 255 / 31; }
+FOOTHOLD_HD inline int green_of(std::uint16_t rgb565) { return ((rgb565 >> 5) & 63) * 255 / 63; }
+FOOTHOLD_HD inline int blue_of(std::uint16_t rgb565) { return (rgb565 & 31) * 255 / 31; }
+
+/// Step 1: one pixel of each grid cell, with its world point.
+struct SampleTrainingPixel {
+  Frame frame;
+  FeatureImageView image;
+  int downscale;
+  SE3 scene_from_camera;  ///< scene = world moved to the reservoirs' origin
+  int grid_width;
+  int spacing;
+  bool jitter;
+  std::uint64_t frame_seed;
+  SampledPixel* pixels;
+  ReservoirPoint* points;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    Random random(frame_seed, i);
+    const int cell_u = static_cast<int>(i % static_cast<std::size_t>(grid_width)) * spacing;
+    const int cell_v = static_cast<int>(i / static_cast<std::size_t>(grid_width)) * spacing;
+    const int u =
+        clamp_index(cell_u + (jitter ? static_cast<int>(random.below(static_cast<std::uint32_t>(spacing))) : 0), frame.depth.width);
+    const int v =
+        clamp_index(cell_v + (jitter ? static_cast<int>(random.below(static_cast<std::uint32_t>(spacing))) : 0), frame.depth.height);
+    const float depth_m = frame.depth(u, v);
+    pixels[i] = {static_cast<std::int16_t>(u), static_cast<std::int16_t>(v), 0.0F};
+    points[i] = {};
+    if (!is_valid_depth(depth_m)) return;
+    const Eigen::Vector3f point_scene =
+        transform_point(scene_from_camera, frame.calibration.depth.back_project(static_cast<float>(u), static_cast<float>(v), depth_m));
+    const float x = std::floor(point_scene.x() * 1000.0F + 0.5F);
+    const float y = std::floor(point_scene.y() * 1000.0F + 0.5F);
+    const float z = std::floor(point_scene.z() * 1000.0F + 0.5F);
+    constexpr float kLimit = 32767.0F;
+    if (!(std::fabs(x) <= kLimit && std::fabs(y) <= kLimit && std::fabs(z) <= kLimit)) return;
+    pixels[i].depth_m = depth_m;
+    const int feature_u = clamp_index(u / downscale, image.width);
+    const int feature_v = clamp_index(v / downscale, image.height);
+    points[i] = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), static_cast<std::int16_t>(z),
+                 pack_rgb565(image.pixels[feature_v * image.width + feature_u])};
+  }
+};
+
+inline constexpr int kLeafShift = 32;  ///< sort keys hold the leaf above, the example below
+
+struct MakeLeafKey {
+  const std::uint32_t* leaves;
+  std::uint64_t* keys;
+  FOOTHOLD_HD void operator()(std::size_t i) const { keys[i] = (static_cast<std::uint64_t>(leaves[i]) << kLeafShift) | i; }
+};
+
+FOOTHOLD_HD inline std::uint32_t leaf_of(std::uint64_t key) { return static_cast<std::uint32_t>(key >> kLeafShift); }
+
+/// True where a run of equal leaves starts.
+FOOTHOLD_HD inline bool starts_run(const Span<const std::uint64_t>& keys, std::size_t i, int num_leaves) {
+  const std::uint32_t leaf = leaf_of(keys[i]);
+  return leaf < static_cast<std::uint32_t>(num_leaves) && (i == 0 || leaf_of(keys[i - 1]) != leaf);
+}
+
+FOOTHOLD_HD inline std::size_t end_of_run(const Span<const std::uint64_t>& keys, std::size_t begin) {
+  std::size_t end = begin + 1;
+  while (end < keys.size() && leaf_of(keys[end]) == leaf_of(keys[begin])) ++end;
+  return end;
+}
+
+/// Counts the pool blocks that each touched leaf needs for its new points.
+struct CountNewBlocks {
+  LeafReservoirsView reservoirs;
+  Span<const std::uint64_t> keys;
+  std::uint32_t* new_blocks;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    new_blocks[i] = 0;
+    if (!starts_run(keys, i, reservoirs.num_leaves)) return;
+    const std::uint32_t leaf = leaf_of(keys[i]);
+    const int stored = reservoirs.num_stored(leaf);
+    const std::size_t wanted = static_cast<std::size_t>(stored) + (end_of_run(keys, i) - i);
+    const int after = wanted < static_cast<std::size_t>(reservoirs.capacity) ? static_cast<int>(wanted) : reservoirs.capacity;
+    new_blocks[i] = static_cast<std::uint32_t>(reservoirs.points.blocks_for(after) - reservoirs.points.blocks_for(stored));
+  }
+};
+
+/// Step 2: one worker per touched leaf adds its examples in frame order by Vitter's algorithm R.
+struct InsertRun {
+  LeafReservoirsView reservoirs;
+  Span<const std::uint64_t> keys;
+  const ReservoirPoint* points;
+  std::size_t num_examples;
+  const std::uint32_t* first_new_block;
+  const std::uint32_t* num_used_blocks;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    if (!starts_run(keys, i, reservoirs.num_leaves)) return;
+    const std::uint32_t leaf = leaf_of(keys[i]);
+    int owned = reservoirs.points.blocks_for(reservoirs.num_stored(leaf));
+    std::uint32_t next_block = *num_used_blocks + first_new_block[i];
+    std::uint32_t seen = reservoirs.num_seen[leaf];
+    std::uint32_t written = 0;
+    const std::uint64_t leaf_seed = derive_seed(reservoirs.seed, leaf);
+    for (std::size_t k = i, end = end_of_run(keys, i); k < end; ++k, ++seen) {
+      auto position = static_cast<int>(seen);
+      if (seen >= static_cast<std::uint32_t>(reservoirs.capacity)) {
+        position = static_cast<int>(Random(leaf_seed, seen).below(seen + 1));
+        if (position >= reservoirs.capacity) continue;
+      } else if (reservoirs.points.blocks_for(position + 1) > owned) {
+        reservoirs.points.own(leaf, owned++, next_block++);
+      }
+      reservoirs.points.at(leaf, position) = points[(keys[k] & 0xffffffffU) % num_examples];
+      ++written;
+    }
+    reservoirs.num_seen[leaf] = seen;
+    reservoirs.num_changed[leaf] += written;
+  }
+};
+
+/// Adds the total of a scan to a counter.
+struct AddTotal {
+  const std::uint32_t* total;
+  std::uint32_t* counter;
+  FOOTHOLD_HD void operator()(std::size_t) const { *counter += *total; }
+};
+
+/// Scratch memory and sizes of one insertion.
+struct InsertionBuffers {
+  Array<std::uint64_t>& keys;
+  Array<std::uint64_t>& sort_buffer;
+  Array<std::uint32_t>& new_blocks;
+  Array<std::uint32_t>& first_new_block;
+};
+
+template <class Executor>
+struct ReservoirAlgorithms {
+  static void sample(const Context& context, const SampleTrainingPixel& body, std::size_t num_cells);
+  static void insert(const Context& context, const LeafReservoirsView& reservoirs, const TrainingExamples& examples,
+                     const InsertionBuffers& buffers, std::uint32_t* num_used_blocks);
+};
+
+template <class Executor>
+void ReservoirAlgorithms<Executor>::sample(const Context& context, const SampleTrainingPixel& body, std::size_t num_cells) {
+  Executor(context).for_each(num_cells, body);
+}
+
+template <class Executor>
+void ReservoirAlgorithms<Executor>::insert(const Context& context, const LeafReservoirsView& reservoirs, const TrainingExamples& examples,
+                                           const InsertionBuffers& buffers, std::uint32_t* num_used_blocks) {
+  const Executor executor(context);
+  const std::size_t num_keys = examples.leaves.size();
+  executor.for_each(num_keys, MakeLeafKey{examples.leaves.data(), buffers.keys.data()});
+  int leaf_bits = 1;
+  while ((reservoirs.num_leaves >> leaf_bits) != 0) ++leaf_bits;
+  executor.sort(Span<std::uint64_t>(buffers.keys), buffers.sort_buffer, kLeafShift, kLeafShift + leaf_bits);
+  const Span<const std::uint64_t> keys(buffers.keys);
+  executor.for_each(num_keys, CountNewBlocks{reservoirs, keys, buffers.new_blocks.data()});
+  executor.exclusive_scan(Span<const std::uint32_t>(buffers.new_blocks), Span<std::uint32_t>(buffers.first_new_block));
+  executor.for_each(num_keys, InsertRun{reservoirs, keys, examples.points.data(), examples.points.size(), buffers.first_new_block.data(),
+                                        num_used_blocks});
+  executor.for_each(1, AddTotal{buffers.first_new_block.data() + num_keys, num_used_blocks});
+}
+
+}  // namespace foothold
