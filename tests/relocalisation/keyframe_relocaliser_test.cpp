@@ -260,6 +260,18 @@ TEST_CASE("KeyframeRelocaliser: reset forgets the scene and its memory") {
   REQUIRE(fixture.relocaliser.relocalise(fixture.frame(relief)).empty());
 }
 
+TEST_CASE("KeyframeRelocaliser: a copy goes its own way") {
+  Random random = test::test_random();
+  Fixture fixture;
+  fixture.relocaliser.train(fixture.frame(random_relief(random, 640, 480)), SE3{});
+  KeyframeRelocaliser copy = fixture.relocaliser;
+  copy.train(fixture.frame(random_relief(random, 640, 480)), SE3{});
+  REQUIRE(copy.num_keyframes() == 2);
+  REQUIRE(fixture.relocaliser.num_keyframes() == 1);
+  fixture.relocaliser = copy;
+  REQUIRE(fixture.relocaliser.num_keyframes() == 2);
+}
+
 TEST_CASE("KeyframeRelocaliser: a saved scene reads back alike") {
   Random random = test::test_random();
   Fixture fixture;
