@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Renders a TsdfVolume as seen from a pose: what the camera ought to see.
+#pragma once
+
+#include <memory>
+
+#include "foothold/base/camera.h"
+#include "foothold/base/se3.h"
+#include "foothold/fusion/tsdf_volume.h"
+
+namespace foothold {
+
+/// A virtual camera.
+struct RenderCamera {
+  Intrinsics intrinsics;
+  int width = 0;
+  int height = 0;
+  SE3 world_from_camera;
+
+  /// The same camera with both sides of its image divided by `divisor`, rounded down.
+  RenderCamera reduced(int divisor) const {
+    return {intrinsics.scaled(1.0F / static_cast<float>(divisor)), width / divisor, height / divisor, world_from_camera};
+  }
+};
+
+/// One pixel of a rendered surface: a point and its normal in the frame of the rendering camera. 16 bytes.
+struct SurfacePixel {
+  float normal_x = 0.0F;  ///< unit length, towards the camera; all zero where it is unknown
+  float normal_y = 0.0F;
+  float normal_z = 0.0F;
+  float depth_m = 0.0F;  ///< z along the optical axis; 0 where no surface was hit
+
+  FOOTHOLD_HD bool has_normal() const { return normal_x != 0.0F || normal_y != 0.0F || normal_z != 0.0F; }
+};
+static_assert(sizeof(SurfacePixel) == 16, "surface maps are shared with kernels");
+
+/// A rendered surface, in the memory of the context that rendered it.
+struct SurfaceMap {
+  explicit SurfaceMap(MemoryKind memory = MemoryKind::kHost) : pixels(memory), colours(memory) {}
+
+  RenderCamera camera;
+  Array<SurfacePixel> pixels;
+  /// As many as pixels if colour was asked for, else none; black where no surface was hit.
+  Array<Rgb8> colours;
+
+  bool empty() const { return pixels.empty(); }
+};
+
+struct RaycasterSettings {
+  /// Part of the interpolated distance that a ray advances at once; below 1 because distances were measured along other rays.
+  float step_fraction = 0.8F;
+  /// Neighbouring pixels whose depths differ by more than this part of the depth belong to different surfaces.
+  float discontinuity = 0.04F;
+
+  template <class Visitor>
+  static void fields(Visitor& v) {
+    v(&RaycasterSettings::step_fraction, "step_fraction", "Part of the distance that a ray advances at once (T: fusion_benchmark).",
+      Range{0.1, 1.0});
+    v(&RaycasterSettings::discontinuity, "discontinuity", "Relative jump of depth between two surfaces (T: fusion_benchmark).",
+      Range{0.001, 1.0});
+  }
+  void validate() const { validate_settings(*this); }
+};
+
+/// Finds, along the ray of each pixel, where the map's signed distance falls through zero.
+///
+/// Rays start and end at the depth range of the surface blocks that project into their tile of the image, cross other blocks in one step,
+/// and interpolate trilinearly only near the surface. Normals come from neighbouring points of the rendering.
+///
+/// Determinism: pixels are independent; identical for any number of threads. Reference: [Newcombe2011] Sec. 3.4, [Prisacariu2017] for the
+/// ranges.
+class Raycaster {
+ public:
+  struct Scratch;  ///< buffers of the implementation
+
+  /// @throws InvalidSettings
+  explicit Raycaster(const Context& context, const RaycasterSettings& settings = {});
+  ~Raycaster();
+  Raycaster(Raycaster&&) noexcept;
+  Raycaster& operator=(Raycaster&&) noexcept;
+
+  /// Renders `volume` into `map`, whose memory is reused. @pre the volume and the map live in the context's memory; the image is not empty.
+  void render(const TsdfVolume& volume, const RenderCamera& camera, SurfaceMap& map, bool with_colour = false);
+
+ private:
+  Context context_;
+  RaycasterSettings settings_;
+  std::unique_ptr<Scratch> scratch_;
+};
+
+}  // namespace foothold

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/fusion/icp_tracker.h"
+
+#include "foothold/base/error.h"
+#include "icp_ops.h"
+#include "small_cholesky.h"
+
+namespace foothold {
+
+void IcpSettings::validate() const {
+  validate_settings(*this);
+  if (finest_level > coarsest_level) {
+    throw InvalidSettings("setting finest_level: got " + std::to_string(finest_level) + ", expected at most coarsest_level, " +
+                          std::to_string(coarsest_level));
+  }
+  if (min_depth_m >= max_depth_m) {
+    throw InvalidSettings("setting min_depth_m: got " + detail::to_text(min_depth_m) + ", expected less than max_depth_m, " +
+                          detail::to_text(max_depth_m));
+  }
+}
+
+IcpTracker::IcpTracker(const Context& context, const IcpSettings& settings)
+    : context_(context), settings_(settings), scratch_(std::make_unique<Scratch>(context.memory())) {
+  settings.validate();
+}
+IcpTracker::~IcpTracker() = default;
+IcpTracker::IcpTracker(IcpTracker&&) noexcept = default;
+IcpTracker& IcpTracker::operator=(IcpTracker&&) noexcept = default;
+
+void IcpTracker::set_frame(const Frame& frame) {
+  FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
+  FOOTHOLD_EXPECTS(frame.depth.memory == context_.memory());
+  const ScopedStage stage(context_, "fusion/pyramid");
+  Scratch& scratch = *scratch_;
+  scratch.levels[0] = {frame.depth, frame.calibration.depth};
+  while (scratch.depths_m.size() < static_cast<std::size_t>(settings_.coarsest_level)) scratch.depths_m.emplace_back(context_.memory());
+  for (int l = 1; l <= settings_.coarsest_level; ++l) {
+    const DepthLevel& fine = scratch.levels[l - 1];
+    const int width = fine.depth.width / 2;
+    const int height = fine.depth.height / 2;
+    Array<float>& depths_m = scratch.depths_m[static_cast<std::size_t>(l - 1)];
+    depths_m.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    scratch.levels[l] = {{depths_m.data(), width, height, context_.memory()}, fine.intrinsics.scaled(0.5F)};
+  }
+  dispatch<IcpOps>(context_, [&](auto ops) { ops.build_pyramid(context_, settings_, scratch); });
+}
+
+namespace {
+/// log det(H / count), or nothing if H is not positive definite.
+bool log_determinant(const IcpState& state, double count, float& result) {
+  double matrix[6][6];
+  int row = 0;
+  for (int a = 0; a < 6; ++a) {
+    for (int b = a; b < 6; ++b, ++row) {
+      matrix[a][b] = state.sums[row] / count;
+      matrix[b][a] = matrix[a][b];
+    }
+  }
+  if (!(count > 0.0) || !cholesky_factor(matrix, 6)) return false;
+  double sum = 0.0;
+  for (int a = 0; a < 6; ++a) sum += 2.0 * std::log(matrix[a][a]);
+  result = static_cast<float>(sum);
+  return true;
+}
+}  // namespace
+
+TrackingResult IcpTracker::track(const SurfaceMap& model, const SE3& guess_world_from_camera) {
+  FOOTHOLD_EXPECTS(!scratch_->levels[0].depth.empty() && !model.empty());
+  FOOTHOLD_EXPECTS(model.pixels.memory() == context_.memory());
+  const ScopedStage stage(context_, "fusion/track");
+  const SE3 model_from_camera = model.camera.world_from_camera.inverse() * guess_world_from_camera;
+  const IcpState state =
+      dispatch<IcpOps>(context_, [&](auto ops) { return ops.align(context_, settings_, model, model_from_camera, *scratch_); });
+
+  TrackingResult result;
+  result.world_from_camera = model.camera.world_from_camera * state.model_from_camera.unpack();
+  result.world_from_camera.rotation = nearest_rotation(result.world_from_camera.rotation);
+  result.num_inliers = static_cast<int>(state.sums[kNumHessian + 7]);
+  result.num_valid = static_cast<int>(state.sums[kNumHessian + 8]);
+  TrackingMeasures& measures = result.measures;
+  const double num_valid = state.sums[kNumHessian + 8];
+  const auto num_total = static_cast<double>(scratch_->levels[settings_.finest_level].depth.size());
+  measures.well_posed =
+      log_determinant(state, num_total, measures.log_det_total) && log_determinant(state, num_valid, measures.log_det_valid);
+  if (num_valid > 0.0) {
+    measures.inlier_fraction = static_cast<float>(state.sums[kNumHessian + 7] / num_valid);
+    const double missing = num_valid - state.sums[kNumHessian + 7];
+    const double inliers_cost = state.sums[kNumHessian + 6] - missing;
+    // Tukey's loss saturates at c^2 / 6 in units of a squared residual.
+    const double squared = (inliers_cost * settings_.finest_outlier_m * settings_.finest_outlier_m / 6.0 +
+                            missing * settings_.coarsest_outlier_m * settings_.coarsest_outlier_m) /
+                           num_valid;
+    measures.residual_m = static_cast<float>(std::sqrt(std::max(0.0, squared)));
+  }
+  return result;
+}
+
+}  // namespace foothold

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/fusion/raycaster.h"
+
+#include "raycaster_ops.h"
+
+namespace foothold {
+
+Raycaster::Raycaster(const Context& context, const RaycasterSettings& settings)
+    : context_(context), settings_(settings), scratch_(std::make_unique<Scratch>(context.memory())) {
+  settings.validate();
+}
+Raycaster::~Raycaster() = default;
+Raycaster::Raycaster(Raycaster&&) noexcept = default;
+Raycaster& Raycaster::operator=(Raycaster&&) noexcept = default;
+
+void Raycaster::render(const TsdfVolume& volume, const RenderCamera& camera, SurfaceMap& map, bool with_colour) {
+  FOOTHOLD_EXPECTS(camera.width > 0 && camera.height > 0 && is_valid(camera.intrinsics));
+  FOOTHOLD_EXPECTS(volume.context().memory() == context_.memory() && map.pixels.memory() == context_.memory());
+  const ScopedStage stage(context_, "fusion/raycast");
+  const auto num_pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  map.camera = camera;
+  map.pixels.resize(num_pixels);
+  map.colours.resize(with_colour ? num_pixels : 0);
+  dispatch<RaycasterOps>(context_, [&](auto ops) { ops.render(context_, volume.view(), settings_, *scratch_, map); });
+}
+
+}  // namespace foothold

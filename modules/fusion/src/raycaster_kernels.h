@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Rendering a volume: depth ranges by tile, rays, normals, colours.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstring>
+
+#include "raycaster_ops.h"
+#include "tsdf_integration_kernels.h"
+
+namespace foothold {
+
+inline constexpr int kRayTileWidth = 16;
+inline constexpr int kRayTileHeight = 8;
+
+FOOTHOLD_HD inline std::int32_t float_bits(float value) {
+  std::int32_t bits = 0;
+  memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+FOOTHOLD_HD inline float float_of_bits(std::int32_t bits) {
+  float value = 0.0F;
+  memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+/// The camera by value for kernels, and its image's tiles.
+struct RayCamera {
+  Intrinsics intrinsics;
+  int width;
+  int height;
+  SE3 world_from_camera;
+  int num_tile_columns;
+};
+
+struct ResetRanges {
+  std::int32_t* near;
+  std::int32_t* far;
+
+  FOOTHOLD_HD void operator()(std::size_t tile) const {
+    near[tile] = 0x7f7fffff;  // the largest float
+    far[tile] = 0;
+  }
+};
+
+/// Widens the depth range of every tile that a block with a surface may cover.
+struct ProjectBlockRange {
+  TsdfView volume;
+  RayCamera camera;
+  SE3 camera_from_world;
+  std::int32_t* near;
+  std::int32_t* far;
+
+  FOOTHOLD_HD void operator()(std::size_t index) const {
+    if (volume.block_has_surface[index] == 0) return;
+    const BlockCoordinates block = unpack_key(volume.block_keys[index]);
+    const float side_m = volume.voxel_size_m * static_cast<float>(kBlockSide);
+    const Eigen::Vector3f centre_world((static_cast<float>(block.x) + 0.5F) * side_m, (static_cast<float>(block.y) + 0.5F) * side_m,
+                                       (static_cast<float>(block.z) + 0.5F) * side_m);
+    const BlockExtent extent =
+        bound_projection(camera_from_world * centre_world, 0.8661F * side_m, camera.intrinsics, camera.width, camera.height);
+    if (!extent.visible()) return;
+    for (int v = extent.v_min / kRayTileHeight; v <= extent.v_max / kRayTileHeight; ++v) {
+      for (int u = extent.u_min / kRayTileWidth; u <= extent.u_max / kRayTileWidth; ++u) {
+        const int tile = v * camera.num_tile_columns + u;
+        atomic_lower(near + tile, float_bits(extent.z_near));
+        atomic_raise(far + tile, float_bits(extent.z_far));
+      }
+    }
+  }
+};
+
+/// A ray in voxel units, parametrised by depth along the optical axis [m].
+struct Ray {
+  float origin[3];
+  float direction[3];
+  float inverse[3];       ///< of the direction
+  float depth_per_metre;  ///< advance in depth for each metre along the ray
+
+  /// The depth at which the ray leaves the block containing (x, y, z).
+  FOOTHOLD_HD float exit_depth(const BlockCoordinates& block) const {
+    const int corner[3] = {block.x, block.y, block.z};
+    float exit = FLT_MAX;
+    for (int axis = 0; axis < 3; ++axis) {
+      const float plane = static_cast<float>((corner[axis] + (direction[axis] > 0.0F ? 1 : 0)) * kBlockSide);
+      const float depth = (plane - origin[axis]) * inverse[axis];
+      exit = depth < exit ? depth : exit;
+    }
+    return exit;
+  }
+};
+
+/// Follows one ray at a time to the first fall of the signed distance through zero.
+class RayMarcher {
+ public:
+  FOOTHOLD_HD RayMarcher(const TsdfView& volume, float step_fraction)
+      : volume_(volume),
+        reader_(volume),
+        step_fraction_(step_fraction),
+        near_limit_(kInterpolationBand * volume.voxel_size_m / volume.truncation_m * kStoredOne) {}
+
+  /// The depth of the surface [m], or 0.
+  FOOTHOLD_HD float march(const Ray& ray, float near, float far) {
+    const float voxel = volume_.voxel_size_m * ray.depth_per_metre;
+    const float to_depth = volume_.truncation_m * step_fraction_ * ray.depth_per_metre;
+    float depth = near;
+    bool outside = false;  // whether the last sample was in free space
+    float outside_depth = 0.0F;
+    float outside_distance = 0.0F;
+    while (depth < far) {
+      const float x = ray.origin[0] + ray.direction[0] * depth;
+      const float y = ray.origin[1] + ray.direction[1] * depth;
+      const float z = ray.origin[2] + ray.direction[2] * depth;
+      if (!enter_block(x, y, z)) {
+        outside = false;
+        const float exit = ray.exit_depth(block_);
+        depth = (exit > depth ? exit : depth) + 0.05F * voxel;
+        continue;
+      }
+      float distance = 0.0F;
+      if (!sample(x, y, z, distance)) {
+        outside = false;
+        depth += voxel;
+        continue;
+      }
+      if (distance > 0.0F) {
+        outside = true;
+        outside_depth = depth;
+        outside_distance = distance;
+        const float step = distance * to_depth;
+        depth += step > 0.5F * voxel ? step : 0.5F * voxel;
+        continue;
+      }
+      float surface = 0.0F;
+      if (outside && refine(ray, outside_depth, outside_distance, depth, distance, surface)) return surface;
+      outside = false;
+      depth += voxel;
+    }
+    return 0.0F;
+  }
+
+  FOOTHOLD_HD VoxelReader& reader() { return reader_; }
+
+ private:
+  /// Farther from the surface than this the nearest voxel is exact enough [voxels].
+  static constexpr float kInterpolationBand = 2.0F;
+
+  FOOTHOLD_HD bool enter_block(float x, float y, float z) {
+    const BlockCoordinates block{floor_to_int(x) >> 3, floor_to_int(y) >> 3, floor_to_int(z) >> 3};
+    if (block.x != block_.x || block.y != block_.y || block.z != block_.z) {
+      block_ = block;
+      const int index = volume_.find(pack_key(block));
+      has_surface_ = index >= 0 && volume_.block_has_surface[index] != 0;
+    }
+    return has_surface_;
+  }
+
+  FOOTHOLD_HD bool sample(float x, float y, float z, float& distance) {
+    const std::int16_t nearest = reader_.stored(floor_to_int(x + 0.5F), floor_to_int(y + 0.5F), floor_to_int(z + 0.5F));
+    if (nearest == kUnobserved) return false;
+    distance = static_cast<float>(nearest);
+    if (distance > near_limit_ || distance < -near_limit_) {
+      distance *= 1.0F / kStoredOne;
+      return true;
+    }
+    return reader_.interpolate(x, y, z, distance);
+  }
+
+  /// Regula falsi between a sample outside and one inside.
+  FOOTHOLD_HD bool refine(const Ray& ray, float outside, float outside_distance, float inside, float inside_distance, float& surface) {
+    constexpr int kNumSteps = 2;
+    for (int i = 0; i < kNumSteps; ++i) {
+      surface = outside + (inside - outside) * outside_distance / (outside_distance - inside_distance);
+      float distance = 0.0F;
+      if (!reader_.interpolate(ray.origin[0] + ray.direction[0] * surface, ray.origin[1] + ray.direction[1] * surface,
+                               ray.origin[2] + ray.direction[2] * surface, distance)) {
+        return false;
+      }
+      if (distance > 0.0F) {
+        outside = surface;
+        outside_distance = distance;
+      } else {
+        inside = surface;
+        inside_distance = distance;
+      }
+    }
+    surface = outside + (inside - outside) * outside_distance / (outside_distance - inside_distance);
+    return true;
+  }
+
+  TsdfView volume_;
+  VoxelReader reader_;
+  float step_fraction_;
+  float near_limit_;
+  BlockCoordinates block_{INT32_MAX, 0, 0};
+  bool has_surface_ = false;
+};
+
+/// Renders one tile of the image.
+struct RenderTile {
+  TsdfView volume;
+  RayCamera camera;
+  float step_fraction;
+  const std::int32_t* near;
+  const std::int32_t* far;
+  float* depths_m;
+  Rgb8* colours;  ///< nullptr if not wanted
+
+  template <class Team>
+  FOOTHOLD_HD void operator()(const Team& team, NoScratch&, std::size_t tile) const {
+    const int u0 = static_cast<int>(tile) % camera.num_tile_columns * kRayTileWidth;
+    const int v0 = static_cast<int>(tile) / camera.num_tile_columns * kRayTileHeight;
+    const float tile_near = float_of_bits(near[tile]);
+    const float tile_far = float_of_bits(far[tile]);
+    RayMarcher marcher(volume, step_fraction);
+    for (int i = team.lane(); i < kRayTileWidth * kRayTileHeight; i += team.size()) {
+      const int u = u0 + i % kRayTileWidth;
+      const int v = v0 + i / kRayTileWidth;
+      if (u >= camera.width || v >= camera.height) continue;
+      const Ray ray = ray_of(u, v);
+      const std::size_t pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(u);
+      const float depth_m = marcher.march(ray, tile_near, tile_far);
+      depths_m[pixel] = depth_m;
+      if (colours != nullptr) colours[pixel] = depth_m > 0.0F ? colour_at(marcher.reader(), ray, depth_m) : Rgb8{};
+    }
+  }
+
+  FOOTHOLD_HD Ray ray_of(int u, int v) const {
+    const Eigen::Vector3f direction_camera = camera.intrinsics.back_project(static_cast<float>(u), static_cast<float>(v), 1.0F);
+    const Eigen::Vector3f direction_world = camera.world_from_camera.rotation * direction_camera;
+    const float to_voxels = 1.0F / volume.voxel_size_m;
+    Ray ray{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const float d = direction_world[axis] * to_voxels;
+      ray.origin[axis] = camera.world_from_camera.translation[axis] * to_voxels;
+      ray.direction[axis] = d > -1e-6F && d < 1e-6F ? 1e-6F : d;
+      ray.inverse[axis] = 1.0F / ray.direction[axis];
+    }
+    ray.depth_per_metre = 1.0F / direction_camera.norm();
+    return ray;
+  }
+
+  /// The trilinear average of the coloured voxels around a point; black if there are none.
+  FOOTHOLD_HD Rgb8 colour_at(VoxelReader& reader, const Ray& ray, float depth_m) const {
+    float g[3];
+    int base[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      g[axis] = ray.origin[axis] + ray.direction[axis] * depth_m;
+      base[axis] = floor_to_int(g[axis]);
+      g[axis] -= static_cast<float>(base[axis]);
+    }
+    float sum[3] = {0.0F, 0.0F, 0.0F};
+    float total = 0.0F;
+    for (int i = 0; i < 8; ++i) {
+      const int x = base[0] + (i & 1);
+      const int y = base[1] + ((i >> 1) & 1);
+      const int z = base[2] + (i >> 2);
+      const VoxelBlock* block = reader.block_of(x, y, z);
+      if (block == nullptr) continue;
+      const int voxel = VoxelReader::voxel_index(x, y, z);
+      if ((block->red[voxel] | block->green[voxel] | block->blue[voxel]) == 0) continue;
+      const float weight = ((i & 1) != 0 ? g[0] : 1.0F - g[0]) * ((i & 2) != 0 ? g[1] : 1.0F - g[1]) * ((i & 4) != 0 ? g[2] : 1.0F - g[2]);
+      sum[0] += weight * static_cast<float>(block->red[voxel]);
+      sum[1] += weight * static_cast<float>(block->green[voxel]);
+      sum[2] += weight * static_cast<float>(block->blue[voxel]);
+      total += weight;
+    }
+    if (total <= 0.0F) return {};
+    return {static_cast<std::uint8_t>(sum[0] / total + 0.5F), static_cast<std::uint8_t>(sum[1] / total + 0.5F),
+            static_cast<std::uint8_t>(sum[2] / total + 0.5F)};
+  }
+};
+
+/// Estimates normals from the points of neighbouring pixels.
+struct EstimateNormal {
+  RayCamera camera;
+  float discontinuity;
+  const float* depths_m;
+  SurfacePixel* pixels;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    const int u = static_cast<int>(i) % camera.width;
+    const int v = static_cast<int>(i) / camera.width;
+    SurfacePixel pixel;
+    pixel.depth_m = depths_m[i];
+    Eigen::Vector3f along_u;
+    Eigen::Vector3f along_v;
+    if (pixel.depth_m > 0.0F && u > 0 && v > 0 && u + 1 < camera.width && v + 1 < camera.height &&
+        difference(u, v, 1, 0, pixel.depth_m, along_u) && difference(u, v, 0, 1, pixel.depth_m, along_v)) {
+      const Eigen::Vector3f normal = along_v.cross(along_u);  // u is right, v is down: towards the camera
+      const float length = normal.norm();
+      if (length > 0.0F) {
+        pixel.normal_x = normal.x() / length;
+        pixel.normal_y = normal.y() / length;
+        pixel.normal_z = normal.z() / length;
+      }
+    }
+    pixels[i] = pixel;
+  }
+
+  FOOTHOLD_HD bool difference(int u, int v, int du, int dv, float centre_m, Eigen::Vector3f& along) const {
+    const float before_m = depths_m[(v - dv) * camera.width + u - du];
+    const float after_m = depths_m[(v + dv) * camera.width + u + du];
+    const float limit = discontinuity * centre_m;
+    if (!(std::abs(before_m - centre_m) < limit && std::abs(after_m - centre_m) < limit)) return false;
+    along = camera.intrinsics.back_project(static_cast<float>(u + du), static_cast<float>(v + dv), after_m) -
+            camera.intrinsics.back_project(static_cast<float>(u - du), static_cast<float>(v - dv), before_m);
+    return true;
+  }
+};
+
+template <Device kDevice>
+void RaycasterOps<kDevice>::render(const Context& context, const TsdfView& volume, const RaycasterSettings& settings, Scratch& scratch,
+                                   SurfaceMap& map) {
+  const typename ExecutorOf<kDevice>::Type exec(context);
+  const RenderCamera& view = map.camera;
+  const int num_columns = (view.width + kRayTileWidth - 1) / kRayTileWidth;
+  const int num_rows = (view.height + kRayTileHeight - 1) / kRayTileHeight;
+  const std::size_t num_tiles = static_cast<std::size_t>(num_columns) * static_cast<std::size_t>(num_rows);
+  const RayCamera camera{view.intrinsics, view.width, view.height, view.world_from_camera, num_columns};
+  scratch.tile_near.resize(num_tiles);
+  scratch.tile_far.resize(num_tiles);
+  scratch.depths_m.resize(map.pixels.size());
+  std::int32_t* const near = scratch.tile_near.data();
+  std::int32_t* const far = scratch.tile_far.data();
+  exec.for_each(num_tiles, ResetRanges{near, far});
+  exec.for_each(static_cast<std::size_t>(volume.num_blocks),
+                ProjectBlockRange{volume, camera, view.world_from_camera.inverse(), near, far});
+  exec.template for_each_team<NoScratch>(num_tiles, RenderTile{volume, camera, settings.step_fraction, near, far, scratch.depths_m.data(),
+                                                               map.colours.empty() ? nullptr : map.colours.data()});
+  exec.for_each(map.pixels.size(), EstimateNormal{camera, settings.discontinuity, scratch.depths_m.data(), map.pixels.data()});
+}
+
+}  // namespace foothold

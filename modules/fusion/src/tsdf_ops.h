@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The steps of TsdfVolume that run on a device.
+#pragma once
+
+#include "dispatch.h"
+#include "foothold/base/array.h"
+#include "foothold/fusion/tsdf_volume.h"
+#include "tsdf_allocation_kernels.h"
+
+namespace foothold {
+
+/// Buffers of one frame's integration, kept so that no frame allocates after warm-up.
+struct TsdfVolume::Scratch {
+  explicit Scratch(MemoryKind memory)
+      : candidates(memory),
+        wanted(memory),
+        offsets(memory),
+        flags(memory),
+        unique_offsets(memory),
+        keys(memory),
+        new_keys(memory),
+        sort_buffer(memory),
+        tile_depths_m(memory) {}
+
+  Array<std::uint64_t> candidates;
+  Array<std::uint32_t> wanted;
+  Array<std::uint32_t> offsets;
+  Array<std::uint32_t> flags;
+  Array<std::uint32_t> unique_offsets;
+  Array<std::uint64_t> keys;
+  Array<std::uint64_t> new_keys;  ///< what the frame wants, sorted, each once
+  Array<std::uint64_t> sort_buffer;
+  Array<float> tile_depths_m;
+};
+
+/// Colour of a frame, by value for kernels.
+struct PosedColour {
+  ColourView image;
+  Intrinsics intrinsics;
+  SE3 colour_from_world;
+};
+
+/// The hash table and flags of a volume, writable.
+struct TsdfTables {
+  std::uint64_t* slot_keys = nullptr;
+  std::int32_t* slot_blocks = nullptr;
+  std::uint8_t* block_has_surface = nullptr;
+};
+
+template <Device kDevice>
+struct TsdfOps {
+  using Scratch = TsdfVolume::Scratch;
+
+  /// Fills scratch.new_keys with the missing blocks that a frame wants; returns how many.
+  static int find_new_blocks(const Context& context, const TsdfView& volume, const PosedDepth& camera, int stride_px, Scratch& scratch);
+  /// Empties the hash table and enters all blocks.
+  static void rebuild_table(const Context& context, const TsdfView& volume, const TsdfTables& tables);
+  /// Clears blocks [first, volume.num_blocks) and enters them into the hash table.
+  static void add_blocks(const Context& context, const TsdfView& volume, const TsdfTables& tables, int first);
+  /// Averages a frame into every block it sees.
+  static void integrate(const Context& context, const TsdfView& volume, const TsdfTables& tables, const PosedDepth& camera,
+                        const PosedColour& colour, int max_weight, Scratch& scratch);
+};
+
+}  // namespace foothold
