@@ -27,8 +27,8 @@ constexpr int kLongestWindow = 50;
 constexpr Rgb8 kInk = {40, 40, 40};
 constexpr Rgb8 kFaint = {222, 222, 222};
 // Told apart by people who are colour blind too. Reference: [Okabe2008].
-constexpr Rgb8 kMethodColours[] = {{0, 114, 178}, {213, 94, 0}, {0, 158, 115}, {204, 121, 167}, {230, 159, 0}, {86, 180, 233}};
-constexpr Rgb8 kFoundColour = {0, 114, 178};
+constexpr Rgb8 kMethodColours[] = {{0, 114, 178}, {230, 159, 0}, {204, 121, 167}, {86, 180, 233}, {0, 0, 0}};
+constexpr Rgb8 kFoundColour = {0, 158, 115};
 constexpr Rgb8 kWrongColour = {213, 94, 0};
 constexpr Rgb8 kLostColour = {110, 110, 110};
 
@@ -72,7 +72,8 @@ std::vector<double> moving_recall(const std::vector<TestRecord>& tests, int wind
   return recall;
 }
 
-void draw_legend(Canvas& canvas, const BenchmarkResult& result, Point right_end) {
+/// @return The left end of what was drawn [px].
+double draw_legend(Canvas& canvas, const BenchmarkResult& result, Point right_end) {
   double x = right_end.x;
   for (std::size_t i = result.methods.size(); i-- > 0;) {
     const std::string label = result.methods[i].name + " " + percent(found_fraction(result.methods[i]));
@@ -81,6 +82,41 @@ void draw_legend(Canvas& canvas, const BenchmarkResult& result, Point right_end)
     canvas.line({x - 22.0, right_end.y}, {x, right_end.y}, method_colour(i), 3.0);
     x -= 22.0 + 20.0;
   }
+  return x;
+}
+
+/// The end of a text that is not wider than `width`, after three dots if something was cut off.
+std::string shortened(const std::string& words, double height, double width) {
+  if (Canvas::text_width(words, height) <= width) return words;
+  for (std::size_t first = 1; first < words.size(); ++first) {
+    const std::string end = "..." + words.substr(first);
+    if (Canvas::text_width(end, height) <= width) return end;
+  }
+  return {};
+}
+
+/// A label on the axis of tests.
+struct Tick {
+  double position = 0.0;  ///< in tests
+  std::string label;
+};
+
+/// Round frame numbers where the tests are one stretch of a recording, else the tests' own numbers.
+std::vector<Tick> test_ticks(const std::vector<TestRecord>& tests) {
+  const auto rises = [](const TestRecord& a, const TestRecord& b) { return a.frame_index < b.frame_index; };
+  const bool one_stretch = tests.front().input_index == tests.back().input_index && std::is_sorted(tests.begin(), tests.end(), rises);
+  const auto number_of = [&](std::size_t test) {
+    return one_stretch ? static_cast<double>(tests[test].frame_index) : static_cast<double>(test);
+  };
+  const double step = std::max(1.0, round_step(number_of(tests.size() - 1) - number_of(0), 10));
+  std::vector<Tick> ticks;
+  double next = std::ceil(number_of(0) / step) * step;
+  for (std::size_t test = 0; test < tests.size(); ++test) {
+    if (number_of(test) < next) continue;
+    ticks.push_back({static_cast<double>(test), format_number(number_of(test), 0)});
+    next = (std::floor(number_of(test) / step) + 1.0) * step;
+  }
+  return ticks;
 }
 
 /// Axes with percent upwards and tests to the right, labelled with the tested frames' numbers.
@@ -90,25 +126,28 @@ void draw_axes(Canvas& canvas, const Box& box, const std::vector<TestRecord>& te
     canvas.line({box.left, y}, {box.right, y}, kFaint);
     canvas.text({box.left - 8.0, y}, std::to_string(tick) + " %", kLabelHeight, kInk, Align::kRight);
   }
-  const double num_tests = static_cast<double>(tests.size());
-  const double step = std::max(1.0, round_step(num_tests, 10));
-  const bool one_input = tests.front().input_index == tests.back().input_index;
-  for (double tick = 0.0; tick < num_tests; tick += step) {
-    const double x = box.left + (box.right - box.left) * tick / std::max(1.0, num_tests - 1.0);
-    const auto frame = one_input ? tests[static_cast<std::size_t>(tick)].frame_index : static_cast<std::int64_t>(tick);
+  for (const Tick& tick : test_ticks(tests)) {
+    const double x = box.left + (box.right - box.left) * tick.position / std::max(1.0, static_cast<double>(tests.size()) - 1.0);
     canvas.line({x, box.bottom}, {x, box.bottom + 5.0}, kInk);
-    canvas.text({x, box.bottom + 17.0}, std::to_string(frame), kLabelHeight, kInk, Align::kCentre);
+    canvas.text({x, box.bottom + 17.0}, tick.label, kLabelHeight, kInk, Align::kCentre);
   }
   canvas.line({box.left, box.bottom}, {box.right, box.bottom}, kInk);
-  canvas.text({0.5 * (box.left + box.right), box.bottom + 38.0}, one_input ? "tested frame" : "test", kLabelHeight, kInk, Align::kCentre);
+  canvas.text({0.5 * (box.left + box.right), box.bottom + 38.0}, "tested frame", kLabelHeight, kInk, Align::kCentre);
+}
+
+std::string title_of(const BenchmarkResult& result) {
+  std::string title = result.protocol + ":";
+  for (const std::string& name : result.tested) title += " " + name;
+  return title;
 }
 
 void draw_chart(Canvas& canvas, const BenchmarkResult& result) {
   const std::vector<TestRecord>& tests = result.methods.front().log.tests;
   const int window = std::clamp(static_cast<int>(tests.size()) / 10, 1, kLongestWindow);
   canvas.text({kMargin, kMargin}, "Found within 5 cm and 5 deg, over the last " + std::to_string(window) + " tests", kTitleHeight, kInk);
-  draw_legend(canvas, result, {kWidth - kMargin, kMargin + 26.0});
-  const Box box{kMargin + 52.0, kMargin + 50.0, kWidth - kMargin, kChartHeight - 58.0};
+  const double legend_left = draw_legend(canvas, result, {kWidth - kMargin, kMargin + 28.0});
+  canvas.text({kMargin, kMargin + 28.0}, shortened(title_of(result), kLabelHeight, legend_left - 2.0 * kMargin), kLabelHeight, kInk);
+  const Box box{kMargin + 52.0, kMargin + 54.0, kWidth - kMargin, kChartHeight - 58.0};
   draw_axes(canvas, box, tests);
   for (std::size_t i = result.methods.size(); i-- > 0;) {  // the first method on top
     const std::vector<double> recall = moving_recall(result.methods[i].log.tests, window);

@@ -6,6 +6,13 @@
 namespace foothold::benchmark {
 namespace {
 
+/// What the columns of the summary mean.
+constexpr const char* kSummaryKey =
+    "\nN/N %: found within N cm and N deg. first: first frame found within 5/5. mm, deg: median errors of the answers. accepted %: found "
+    "within\n"
+    "5/5 and confident. false: confident, but beyond 10/10. ms: median/95th percentile. state: the learnt scene. peak: the whole "
+    "process.\n";
+
 std::string percent(double fraction) { return format_number(100.0 * fraction, 1); }
 
 /// "median/p95".
@@ -16,10 +23,9 @@ std::string spread(const Spread& ms) { return format_number(ms.median, 2) + "/" 
 std::string summary_table(const BenchmarkResult& result) {
   std::vector<std::string> header = {"method"};
   for (const PoseThreshold& threshold : recall_ladder()) {
-    header.push_back(format_number(threshold.translation_m * 100.0, 0) + "cm/" + format_number(threshold.rotation_deg, 0) + "deg %");
+    header.push_back(format_number(threshold.translation_m * 100.0, 0) + "/" + format_number(threshold.rotation_deg, 0) + " %");
   }
-  for (const char* name :
-       {"first ok", "median mm", "median deg", "accepted %", "false", "train ms", "relocalise ms", "state MB", "peak MB"}) {
+  for (const char* name : {"first", "mm", "deg", "accepted %", "false", "train ms", "relocalise ms", "state MB", "peak MB"}) {
     header.emplace_back(name);
   }
   std::vector<std::vector<std::string>> rows;
@@ -38,7 +44,7 @@ std::string summary_table(const BenchmarkResult& result) {
     row.push_back(format_number(method.peak_mb, 0));
     rows.push_back(std::move(row));
   }
-  return format_table(header, rows);
+  return format_table(header, rows) + kSummaryKey;
 }
 
 std::string novelty_table(const BenchmarkResult& result) {

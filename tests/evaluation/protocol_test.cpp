@@ -47,6 +47,9 @@ TEST_CASE("run_tracking_loss: needs gap + 2 frames") {
   REQUIRE_THROWS_WITH(run_tracking_loss(relocaliser, test::make_input(0, 5), 4),
                       Contains("fake") && Contains("5 frames") && Contains("at least 6"));
   REQUIRE_THROWS_AS(run_tracking_loss(relocaliser, test::make_input(0, 0), 0), FileError);
+  EvaluationInput of_unknown_length = test::make_input(0, 5);
+  of_unknown_length.num_frames = 0;
+  REQUIRE_THROWS_WITH(run_tracking_loss(relocaliser, of_unknown_length, 4), Contains("5 frames"));
 }
 
 TEST_CASE("run_train_test: learns all training inputs, settles, then only tests") {

@@ -10,8 +10,20 @@
 
 namespace foothold {
 
+namespace {
+
+/// @throws FileError if there are too few frames to learn one and test another.
+void check_num_frames(const std::string& name, int num_frames, int gap) {
+  if (num_frames >= gap + 2) return;
+  throw FileError(name + ": got " + std::to_string(num_frames) + (num_frames == 1 ? " frame" : " frames") + ", expected at least " +
+                  std::to_string(gap + 2) + " to learn one and test another with a gap of " + std::to_string(gap));
+}
+
+}  // namespace
+
 RunLog run_tracking_loss(Relocaliser& relocaliser, const EvaluationInput& input, int gap, const ProtocolOptions& options) {
   FOOTHOLD_EXPECTS(gap >= 0);
+  if (input.num_frames > 0) check_num_frames(input.name, input.num_frames, gap);
   FrameReader reader(input);
   ProtocolRun run(relocaliser, options);
   std::deque<RgbdFrame> waiting;  // read but not yet learnt: frames i .. i + gap
@@ -29,10 +41,7 @@ RunLog run_tracking_loss(Relocaliser& relocaliser, const EvaluationInput& input,
     }
     run.report(num_read, input.num_frames);
   }
-  if (num_read < gap + 2) {
-    throw FileError(input.name + ": has " + std::to_string(num_read) + " frames; expected at least " + std::to_string(gap + 2) +
-                    " to learn one and test another with a gap of " + std::to_string(gap));
-  }
+  check_num_frames(input.name, num_read, gap);
   return run.finish();
 }
 

@@ -21,7 +21,7 @@ namespace foothold {
 /// A stretch of frames with true poses that can be played from its start.
 struct EvaluationInput {
   std::string name;    ///< as messages and reports call it
-  int num_frames = 0;  ///< what will be played; for progress only
+  int num_frames = 0;  ///< what will be played, for progress and early errors; 0 if unknown
   std::function<std::unique_ptr<FrameSource>()> open;
 };
 
