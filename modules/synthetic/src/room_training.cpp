@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include <algorithm>
+
+#include "furniture.h"
+#include "rooms.h"
+
+namespace foothold::synthetic_detail {
+namespace {
+
+using Eigen::Vector3f;
+
+Material wall_material(Choices& choices) {
+  const Colour colour = choices.muted();
+  switch (choices.below(8)) {
+    case 0:
+      return bricks(0.8F * choices.colour(), colour);
+    case 1:
+      return tiles(colour, 0.7F * colour, choices.between(0.1F, 0.3F), choices.between(0.1F, 0.4F));
+    case 2:
+      return stripes(colour, 0.8F * colour, choices.between(0.03F, 0.2F), 0.4F);
+    case 3:
+      return wood(choices.timber(), choices.between(0.08F, 0.2F), 0.4F);
+    case 4:
+      return plain(choices.colour());
+    default:
+      return plaster(colour, choices.between(0.15F, 0.6F), choices.between(0.4F, 1.4F));
+  }
+}
+
+Material floor_material(Choices& choices) {
+  const Colour colour = choices.muted() * choices.between(0.4F, 1.0F);
+  switch (choices.below(6)) {
+    case 0:
+      return tiles(colour, 0.6F * colour, choices.between(0.2F, 0.6F), 0.3F);
+    case 1:
+      return checker(colour, 0.6F * choices.colour(), choices.between(0.15F, 0.4F));
+    case 2:
+      return stripes(colour, 0.6F * colour, choices.between(0.02F, 0.08F));
+    case 3:
+      return carpet(colour, 0.5F * choices.colour());
+    case 4:
+      return speckle(colour, 0.5F * colour, choices.between(0.4F, 1.0F));
+    default:
+      return wood(choices.timber(), choices.between(0.08F, 0.25F), choices.between(0.3F, 0.7F));
+  }
+}
+
+Material furniture_material(Choices& choices) {
+  switch (choices.below(3)) {
+    case 0:
+      return plain(choices.colour(), choices.between(0.1F, 0.5F));
+    case 1:
+      return plain(choices.muted(), choices.between(0.1F, 0.5F));
+    default:
+      return wood(choices.timber(), choices.between(0.08F, 0.5F), choices.between(0.3F, 0.7F));
+  }
+}
+
+Material cover_material(Choices& choices) {
+  const Colour colour = choices.colour();
+  return choices.chance(0.3F) ? stripes(colour, choices.colour(), choices.between(0.02F, 0.08F))
+                              : fabric(colour, choices.between(0.3F, 0.9F));
+}
+
+void chair(const RoomBuilder& b, Choices& choices) {
+  const std::uint32_t seed = choices.seed();
+  if (choices.chance(0.5F)) return office_chair(b, cover_material(choices), seed);
+  const Material timber = wood(choices.timber());
+  wooden_chair(b, timber, choices.chance(0.5F) ? cover_material(choices) : timber, seed);
+}
+
+void workplace(const RoomBuilder& b, float width, Choices& choices) {
+  constexpr float kDeskZ = 0.73F;
+  const Material top = furniture_material(choices);
+  desk(b, width, top, furniture_material(choices), choices.seed());
+  const int num_monitors = 1 + choices.below(2);
+  for (int i = 0; i < num_monitors; ++i) {
+    const float x = -0.3F * width + 0.58F * static_cast<float>(i);
+    const float size = choices.between(0.42F, 0.56F);
+    monitor(b.at(x, -0.2F, kDeskZ, choices.between(-15.0F, 15.0F)), size, choices.seed());
+  }
+  keyboard(b.at(-0.2F, -0.5F, kDeskZ));
+  clutter(b.at(0.3F * width, -0.4F, kDeskZ), 0.35F * width, 0.35F, 2 + choices.below(2), choices);
+  const float turn_deg = choices.between(-50.0F, 50.0F);
+  chair(b.at(-0.1F, -1.05F, 0.0F, turn_deg), choices);
+}
+
+void kitchenette(const RoomBuilder& b, float width, Choices& choices) {
+  const int count = std::max(1, static_cast<int>(width / 0.6F));
+  const Material front = furniture_material(choices);
+  const Material worktop = choices.chance(0.5F) ? speckle(choices.muted(), {0.15F, 0.15F, 0.15F}) : wood(choices.timber());
+  cabinets(b, count, 0.6F, 0.9F, front, worktop, choices.seed());
+  if (choices.chance(0.6F)) wall_cabinets(b, count, 0.6F, 1.45F, front, choices.seed());
+  if (count > 2) sink(b.at(-0.5F, 0.0F, 0.0F), 0.9F);
+  clutter(b.at(0.2F * width, -0.3F, 0.9F), 0.5F * width, 0.3F, 2 + choices.below(3), choices);
+}
+
+void dresser(const RoomBuilder& b, float width, Choices& choices) {
+  const float depth = choices.between(0.45F, 0.75F);
+  const float height = choices.between(0.5F, 0.95F);
+  const Material top = furniture_material(choices);
+  table(b, width, depth, height, top, choices.chance(0.5F) ? top : furniture_material(choices), choices.seed());
+  clutter(b.at(0.0F, -0.5F * depth, height), 0.9F * width, 0.5F * depth, 2 + choices.below(4), choices);
+  if (choices.chance(0.5F)) box_stack(b.at(0.0F, -0.3F, 0.0F), 1, choices);
+}
+
+/// One piece of furniture at a wall, `width` metres of which are free.
+void stand_something(const RoomBuilder& b, float width, Choices& choices) {
+  b.target({0.0F, -0.3F, choices.between(0.5F, 1.3F)});
+  switch (choices.below(9)) {
+    case 0: {
+      const float height = choices.between(1.1F, 2.1F);
+      const float fill = choices.between(0.5F, 1.0F);
+      return bookcase(b, width - 0.1F, height, static_cast<int>(height / 0.37F), fill, furniture_material(choices), choices);
+    }
+    case 1: {
+      const float height = choices.between(1.2F, 2.1F);
+      return wardrobe(b, width - 0.1F, height, furniture_material(choices), choices.seed());
+    }
+    case 2:
+    case 3:
+      return workplace(b, std::max(1.2F, width - 0.1F), choices);
+    case 4: {
+      const Material cover = cover_material(choices);
+      const Material cushion = cover_material(choices);
+      return sofa(b, std::max(1.3F, width - 0.1F), cover, cushion, choices.seed());
+    }
+    case 5:
+      return kitchenette(b, width, choices);
+    case 6: {
+      const float height = choices.between(0.7F, 1.5F);
+      plant(b.at(-0.25F * width, -0.35F, 0.0F), height, choices.colour(), choices);
+      return floor_lamp(b.at(0.25F * width, -0.15F, 0.0F), choices.colour());
+    }
+    case 7: {
+      box_stack(b.at(-0.25F * width, -0.3F, 0.0F), 1 + choices.below(3), choices);
+      return box_stack(b.at(0.25F * width, -0.35F, 0.0F), 1 + choices.below(4), choices);
+    }
+    default:
+      return dresser(b, width - 0.1F, choices);
+  }
+}
+
+/// Something on a wall above the furniture.
+void hang_something(const RoomBuilder& b, float width, Choices& choices) {
+  const float z = choices.between(1.5F, 1.85F);
+  switch (choices.below(6)) {
+    case 0:
+      return window(b, std::min(width, 1.3F), 0.9F, z - 0.4F, choices.seed());
+    case 1:
+      return whiteboard(b, std::min(width, 1.6F), z, choices.seed());
+    case 2: {
+      const Material board = furniture_material(choices);
+      return wall_shelf(b, std::min(width - 0.1F, 1.2F), z - 0.1F, board, 2 + choices.below(4), choices);
+    }
+    case 3:
+      return;
+    default: {
+      const float picture = choices.between(0.3F, 0.8F);
+      const float shape = choices.between(0.6F, 1.5F);
+      return framed_picture(b, picture, std::min(0.9F, picture * shape), z, choices);
+    }
+  }
+}
+
+/// Fills one wall from end to end.
+template <class AtWall>
+void furnish_wall(const AtWall& at_wall, float low, float high, Choices& choices) {
+  float x = low;
+  while (high - x > 0.8F) {
+    const float width = std::min(choices.between(0.8F, 2.1F), high - x);
+    const RoomBuilder b = at_wall(x + 0.5F * width);
+    if (width > 1.0F && choices.chance(0.12F)) {
+      const Material leaf = furniture_material(choices);
+      door(b, leaf, choices.seed());
+    } else {
+      if (!choices.chance(0.12F)) stand_something(b, width, choices);
+      if (choices.chance(0.7F)) hang_something(b, width, choices);
+    }
+    x += width + choices.between(0.0F, 0.25F);
+  }
+}
+
+/// A table with chairs in the middle of the room.
+void furnish_middle(const RoomBuilder& world, Choices& choices) {
+  const float x = choices.between(-0.4F, 0.4F);
+  const float y = choices.between(-0.4F, 0.4F);
+  const RoomBuilder b = world.at(x, y, 0.0F, choices.between(0.0F, 360.0F));
+  const float width = choices.between(0.8F, 1.5F);
+  const float depth = choices.between(0.6F, 0.9F);
+  const float height = choices.between(0.4F, 0.76F);
+  const Material top = furniture_material(choices);
+  table(b.at(0.0F, 0.5F * depth, 0.0F), width, depth, height, top, furniture_material(choices), choices.seed());
+  clutter(b.at(0.0F, 0.0F, height), 0.85F * width, 0.5F * depth, 3 + choices.below(4), choices);
+  const Material rug =
+      choices.chance(0.5F) ? stripes(choices.colour(), {0.7F, 0.65F, 0.6F}, 0.08F) : checker(choices.colour(), {0.4F, 0.35F, 0.3F}, 0.2F);
+  if (choices.chance(0.5F)) b.sheet({0.0F, 0.0F, 0.004F}, width + 0.9F, depth + 0.9F, rug);
+  if (height > 0.6F) {
+    for (const float side : {0.0F, 180.0F}) {
+      if (choices.chance(0.8F)) chair(b.at(0.0F, 0.0F, 0.0F, side).at(0.0F, 0.5F * depth + 0.2F, 0.0F), choices);
+    }
+  }
+  b.target({0.0F, 0.0F, height});
+  b.target({0.3F, 0.1F, height});
+}
+
+void light_room(const RoomBuilder& world, float width, float depth, float height, Choices& choices) {
+  const int num_lamps = 2 + choices.below(3);
+  const float power = choices.between(1.4F, 2.6F) / static_cast<float>(num_lamps);
+  for (int i = 0; i < num_lamps; ++i) {
+    const Vector3f place{choices.between(-0.4F, 0.4F) * width, choices.between(-0.4F, 0.4F) * depth,
+                         choices.between(0.75F, 0.98F) * height};
+    const float warmth = choices.between(-0.12F, 0.18F);
+    world.light(place, power * Colour(1.0F + warmth, 1.0F, 1.0F - warmth));
+  }
+  world.room().ambient = Colour::Constant(choices.between(0.3F, 0.5F));
+}
+
+}  // namespace
+
+Room make_training_room(std::uint64_t k) {
+  Room room;
+  const RoomBuilder world(room);
+  Choices choices(derive_seed(k, 0x7261696e));
+  const float width = choices.between(3.4F, 5.8F);
+  const float depth = choices.between(3.4F, 5.2F);
+  const float height = choices.between(2.3F, 3.1F);
+  const Material wall = wall_material(choices);
+  const auto side = [&] { return choices.chance(0.65F) ? wall : wall_material(choices); };
+  world.shell(width, depth, height, {floor_material(choices), plain(choices.muted()), side(), side(), side(), side()});
+  light_room(world, width, depth, height, choices);
+  furnish_wall([&](float x) { return world.against_north(x); }, -0.5F * width + 0.05F, 0.5F * width - 0.05F, choices);
+  furnish_wall([&](float x) { return world.against_south(x); }, -0.5F * width + 0.05F, 0.5F * width - 0.05F, choices);
+  furnish_wall([&](float x) { return world.against_east(x); }, -0.5F * depth + 0.75F, 0.5F * depth - 0.75F, choices);
+  furnish_wall([&](float x) { return world.against_west(x); }, -0.5F * depth + 0.75F, 0.5F * depth - 0.75F, choices);
+  if (choices.chance(0.7F)) furnish_middle(world, choices);
+  world.target({0.0F, 0.5F * depth, 1.2F});
+  world.target({0.0F, -0.5F * depth, 1.2F});
+  const float eye_z = choices.between(1.15F, 1.6F);
+  room.eye_low_world = {0.7F - 0.5F * width + 0.25F, 0.7F - 0.5F * depth + 0.25F, eye_z - 0.2F};
+  room.eye_high_world = {-0.7F + 0.5F * width - 0.25F, -0.7F + 0.5F * depth - 0.25F, eye_z + 0.25F};
+  return room;
+}
+
+}  // namespace foothold::synthetic_detail
