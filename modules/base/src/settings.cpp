@@ -3,10 +3,10 @@
 #include "foothold/base/settings.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <numeric>
-#include <sstream>
+#include <system_error>
 
 namespace foothold {
 namespace {
@@ -35,28 +35,21 @@ std::string to_text(bool value) { return value ? "true" : "false"; }
 std::string to_text(long long value) { return std::to_string(value); }
 std::string to_text(unsigned long long value) { return std::to_string(value); }
 
-std::string to_text(double value) {
-  std::ostringstream stream;
-  stream.precision(17);
-  for (int digits = 1; digits <= 17; ++digits) {
-    std::ostringstream shortest;
-    shortest.precision(digits);
-    shortest << value;
-    if (std::strtod(shortest.str().c_str(), nullptr) == value) return shortest.str();
-  }
-  stream << value;
-  return stream.str();
+namespace {
+/// The shortest text that reads back as the same number; plain digits for the magnitudes that settings have.
+template <class T>
+std::string shortest_text(T value) {
+  const double magnitude = std::abs(static_cast<double>(value));
+  const bool plain = magnitude == 0.0 || (magnitude >= 1e-5 && magnitude < 1e10);
+  char text[64];
+  const auto [end, error] =
+      std::to_chars(text, text + sizeof(text), value, plain ? std::chars_format::fixed : std::chars_format::scientific);
+  return error == std::errc() ? std::string(text, end) : std::string();
 }
+}  // namespace
 
-std::string to_text(float value) {
-  for (int digits = 1; digits <= 9; ++digits) {
-    std::ostringstream shortest;
-    shortest.precision(digits);
-    shortest << value;
-    if (std::strtof(shortest.str().c_str(), nullptr) == value) return shortest.str();
-  }
-  return to_text(static_cast<double>(value));
-}
+std::string to_text(double value) { return shortest_text(value); }
+std::string to_text(float value) { return shortest_text(value); }
 
 std::string range_text(const Range& range) { return "[" + to_text(range.low) + ", " + to_text(range.high) + "]"; }
 
@@ -71,10 +64,11 @@ void check_range(const std::string& path, double value, const Range& range) {
   throw InvalidSettings("setting " + path + ": got " + to_text(value) + ", expected a value in " + range_text(range));
 }
 
+// std::from_chars wants the whole text to be the number, and neither skips blanks nor heeds the host's locale.
 double parse_number(const std::string& path, const std::string& text, const Range& range, bool integer) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const bool complete = !text.empty() && end == text.c_str() + text.size();
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool complete = error == std::errc() && end == text.data() + text.size();
   if (!complete || (integer && std::floor(value) != value)) {
     throw InvalidSettings("setting " + path + ": got '" + text + "', expected " + (integer ? "an integer in " : "a number in ") +
                           range_text(range));
@@ -83,11 +77,12 @@ double parse_number(const std::string& path, const std::string& text, const Rang
   return value;
 }
 
-unsigned long long parse_unsigned(const std::string& path, const std::string& text) {
-  char* end = nullptr;
-  const unsigned long long value = std::strtoull(text.c_str(), &end, 10);
-  const bool complete = !text.empty() && end == text.c_str() + text.size() && text[0] != '-';
-  if (!complete) throw InvalidSettings("setting " + path + ": got '" + text + "', expected a non-negative integer");
+unsigned long long parse_unsigned(const std::string& path, const std::string& text, unsigned long long max) {
+  unsigned long long value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size() || value > max) {
+    throw InvalidSettings("setting " + path + ": got '" + text + "', expected an integer from 0 to " + std::to_string(max));
+  }
   return value;
 }
 

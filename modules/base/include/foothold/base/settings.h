@@ -12,6 +12,7 @@
 /// and is addressed by paths such as "pose.num_hypotheses".
 #pragma once
 
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -45,7 +46,8 @@ std::string range_text(const Range& range);
 bool parse_bool(const std::string& path, const std::string& text);
 /// Parses a number completely and checks it against a range. @throws InvalidSettings
 double parse_number(const std::string& path, const std::string& text, const Range& range, bool integer);
-unsigned long long parse_unsigned(const std::string& path, const std::string& text);
+/// Parses a number from 0 to `max` completely. @throws InvalidSettings
+unsigned long long parse_unsigned(const std::string& path, const std::string& text, unsigned long long max);
 void check_range(const std::string& path, double value, const Range& range);
 [[noreturn]] void throw_unknown_setting(const std::string& path, const std::vector<SettingDescription>& known);
 
@@ -72,7 +74,7 @@ void parse_field(const std::string& path, const std::string& text, const Range& 
   } else if constexpr (std::is_same_v<T, bool>) {
     value = parse_bool(path, text);
   } else if constexpr (std::is_unsigned_v<T>) {
-    value = static_cast<T>(parse_unsigned(path, text));
+    value = static_cast<T>(parse_unsigned(path, text, std::numeric_limits<T>::max()));
     check_range(path, static_cast<double>(value), range);
   } else {
     value = static_cast<T>(parse_number(path, text, range, std::is_integral_v<T>));
