@@ -1,0 +1,102 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The Foothold authors
+"""Checks that the documents agree with the repository.
+
+    documents.py REPOSITORY
+
+Links lead somewhere, files named in `code` exist, cited papers are in REFERENCES.md and listed ones are cited,
+and the README names every module, app and preset.
+"""
+
+import json
+import os
+import re
+import sys
+
+LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
+CODE_PATH = re.compile(r"`((?:scripts|docs|modules|apps|tests|cmake|data|\.ci)/[\w./-]*\w)`")
+CITATION = re.compile(r"\[([A-Z][a-z]+(?:[A-Z][a-z]+)*\d{4}[a-z]?)\]")
+LISTED = re.compile(r"^- \*\*\[(\w+)\]\*\*", re.MULTILINE)
+SOURCE_ENDINGS = (".h", ".cpp", ".cu", ".cuh", ".py", ".md")
+
+
+class Checker:
+    def __init__(self, repository):
+        self.repository = repository
+        self.violations = []
+
+    def read(self, path):
+        with open(os.path.join(self.repository, path), encoding="utf-8") as file:
+            return file.read()
+
+    def exists(self, path):
+        return os.path.exists(os.path.join(self.repository, path))
+
+    def files(self, trees, endings):
+        for tree in trees:
+            for folder, folders, names in os.walk(os.path.join(self.repository, tree)):
+                folders[:] = sorted(name for name in folders if not name.startswith((".", "__")))
+                for name in sorted(names):
+                    if name.endswith(endings):
+                        yield os.path.relpath(os.path.join(folder, name), self.repository)
+
+    def documents(self):
+        yield from sorted(name for name in os.listdir(self.repository) if name.endswith(".md"))
+        yield from self.files(["docs", "modules", "data"], (".md",))
+
+    def check_paths(self):
+        for document in self.documents():
+            for number, line in enumerate(self.read(document).split("\n"), 1):
+                for target in LINK.findall(line):
+                    if "://" not in target and not self.exists(os.path.join(os.path.dirname(document), target)):
+                        self.violations.append(f"{document}:{number}: the link to {target} leads nowhere")
+                for path in CODE_PATH.findall(line):
+                    if not self.exists(path):
+                        self.violations.append(f"{document}:{number}: {path} does not exist")
+
+    def check_citations(self):
+        listed = set(LISTED.findall(self.read("REFERENCES.md")))
+        cited = {}
+        for path in self.files(["modules", "apps", "tests", "docs"], SOURCE_ENDINGS):
+            for key in CITATION.findall(self.read(path)):
+                cited.setdefault(key, path)
+        for document in ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"]:
+            for key in CITATION.findall(self.read(document)):
+                cited.setdefault(key, document)
+        for key in sorted(set(cited) - listed):
+            self.violations.append(f"{cited[key]}: cites [{key}], which REFERENCES.md does not list")
+        for key in sorted(listed - set(cited)):
+            self.violations.append(f"REFERENCES.md: lists [{key}], which nothing cites")
+
+    def check_readme(self):
+        readme = self.read("README.md")
+        for kind in ["modules", "apps"]:
+            folder = os.path.join(self.repository, kind)
+            for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else []:
+                part = os.path.join(folder, name)
+                built = os.path.exists(os.path.join(part, "CMakeLists.txt")) or os.path.exists(os.path.join(part, "main.cpp"))
+                if built and f"`{name}`" not in readme:
+                    self.violations.append(f"README.md: does not name {kind}/{name}")
+        for preset in json.loads(self.read("CMakePresets.json"))["configurePresets"]:
+            if not preset.get("hidden") and f"`{preset['name']}`" not in readme:
+                self.violations.append(f"README.md: does not name the preset {preset['name']}")
+
+    def run(self):
+        self.check_paths()
+        self.check_citations()
+        self.check_readme()
+        return self.violations
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        print("usage: documents.py REPOSITORY", file=sys.stderr)
+        return 2
+    violations = Checker(arguments[1]).run()
+    print("\n".join(violations) if violations else "documents: agree with the repository")
+    return 1 if violations else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv))
