@@ -71,6 +71,7 @@ int create_beside(const std::string& path, std::string& temporary_path) {
 
 struct AtomicFile::State {
   std::string path;
+  Durability durability = Durability::kPowerCut;
   std::string temporary_path;
   int descriptor = -1;
   std::unique_ptr<DescriptorBuffer> buffer;
@@ -82,8 +83,9 @@ struct AtomicFile::State {
   }
 };
 
-AtomicFile::AtomicFile(const std::string& path) : state_(std::make_unique<State>()) {
+AtomicFile::AtomicFile(const std::string& path, Durability durability) : state_(std::make_unique<State>()) {
   state_->path = path;
+  state_->durability = durability;
   if (std::filesystem::is_directory(path)) throw FileError(path + ": cannot be written: it is a folder");
   std::string temporary_path;
   state_->descriptor = create_beside(path, temporary_path);
@@ -102,7 +104,9 @@ void AtomicFile::commit() {
   s.stream->flush();
   if (s.buffer->error() != 0) throw_write_error(s.path, s.buffer->error());
   if (!*s.stream) throw FileError(s.path + ": cannot be written: the stream was marked as failed");
-  if (::fsync(s.descriptor) != 0 && errno != EINVAL) throw_write_error(s.path, errno);  // EINVAL: the file system cannot sync
+  if (s.durability == Durability::kPowerCut && ::fsync(s.descriptor) != 0 && errno != EINVAL) {  // EINVAL: nothing to sync, as on a pipe
+    throw_write_error(s.path, errno);
+  }
   const int closed = ::close(s.descriptor);
   s.descriptor = -1;
   if (closed != 0) throw_write_error(s.path, errno);
@@ -110,8 +114,8 @@ void AtomicFile::commit() {
   s.temporary_path.clear();
 }
 
-void write_file_atomically(const std::string& path, const std::string& bytes) {
-  AtomicFile file(path);
+void write_file_atomically(const std::string& path, const std::string& bytes, Durability durability) {
+  AtomicFile file(path, durability);
   file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.commit();
 }

@@ -64,7 +64,7 @@ void encode(const std::string& path, const cv::Mat& image) {
     throw FileError(path + ": cannot be encoded as PNG: " + exception.err);
   }
   if (bytes.empty()) throw FileError(path + ": cannot be encoded as PNG");
-  write_file_atomically(path, std::string(bytes.begin(), bytes.end()));
+  write_file_atomically(path, std::string(bytes.begin(), bytes.end()), Durability::kCrash);
 }
 
 /// A colour map whose lightness falls evenly from yellow over green and blue to violet (after viridis), at x in [0, 1].

@@ -124,34 +124,36 @@ void read_vertices(Reader& reader, const PlyElement& element, Mesh& mesh) {
   }
 }
 
+bool holds_indices(const PlyProperty& property) { return property.name == "vertex_indices" || property.name == "vertex_index"; }
+
+std::array<int, 3> read_triangle(Reader& reader, const PlyProperty& property, std::size_t face, std::size_t num_vertices) {
+  const std::string name = "face " + std::to_string(face);
+  const std::size_t count = property.is_list ? read_count(reader, property.count_type) : 1;
+  if (count != 3) throw_file_error(reader.file(), name + " of " + std::to_string(count) + " corners", "triangles");
+  std::array<int, 3> triangle{};
+  for (int& corner : triangle) {
+    const auto index = static_cast<long long>(reader.number(property.type));
+    if (index < 0 || index >= static_cast<long long>(num_vertices)) {
+      throw_file_error(reader.file(), name + " with vertex " + std::to_string(index),
+                       "an index below the number of vertices before it, " + std::to_string(num_vertices));
+    }
+    corner = static_cast<int>(index);
+  }
+  return triangle;
+}
+
 void read_triangles(Reader& reader, const PlyElement& element, Mesh& mesh) {
-  bool has_indices = false;
-  for (const PlyProperty& property : element.properties)
-    has_indices = has_indices || property.name == "vertex_indices" || property.name == "vertex_index";
-  if (!has_indices) throw_file_error(reader.file(), "faces without indices", "property list uchar int vertex_indices");
+  const auto indices = std::find_if(element.properties.begin(), element.properties.end(), holds_indices);
+  if (indices == element.properties.end() || indices->type == PlyType::kFloat32 || indices->type == PlyType::kFloat64) {
+    throw_file_error(reader.file(), "faces without integer indices", "property list uchar int vertex_indices");
+  }
   for (std::size_t i = 0; i < element.count; ++i) {
     for (const PlyProperty& property : element.properties) {
-      if (property.name != "vertex_indices" && property.name != "vertex_index") {
+      if (&property == &*indices) {
+        mesh.triangles.push_back(read_triangle(reader, property, i, mesh.vertices.size()));
+      } else {
         skip_property(reader, property);
-        continue;
       }
-      const std::size_t count = property.is_list ? read_count(reader, property.count_type) : 1;
-      if (count != 3)
-        throw_file_error(reader.file(), "face " + std::to_string(i) + " of " + std::to_string(count) + " corners", "triangles");
-      if (property.type == PlyType::kFloat32 || property.type == PlyType::kFloat64) {
-        throw_file_error(reader.file(), "vertex indices that are not integers", "property list uchar int vertex_indices");
-      }
-      std::array<int, 3> triangle{};
-      for (int& corner : triangle) {
-        const double index = reader.number(property.type);
-        // Vertices come first in the file, so that they are all known.
-        if (!(index >= 0.0 && index < static_cast<double>(mesh.vertices.size()))) {
-          throw_file_error(reader.file(), "face " + std::to_string(i) + " with vertex " + std::to_string(static_cast<long long>(index)),
-                           "an index below the number of vertices, " + std::to_string(mesh.vertices.size()));
-        }
-        corner = static_cast<int>(index);
-      }
-      mesh.triangles.push_back(triangle);
     }
   }
 }

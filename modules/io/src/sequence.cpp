@@ -8,9 +8,7 @@
 #include <filesystem>
 
 #include "foothold/base/contract.h"
-#ifdef FOOTHOLD_HAS_SYNTHETIC
 #include "foothold/synthetic/synthetic_sequence.h"
-#endif
 #include "seven_scenes_sequence.h"
 #include "text_file.h"
 #include "tum_sequence.h"
@@ -68,9 +66,7 @@ std::shared_ptr<Sequence> open_folder(const fs::path& folder, const Context& con
 
 std::shared_ptr<Sequence> open_whole(const std::string& source, const Context& context, const SequenceOptions& options) {
   if (source.empty()) throw InvalidSettings("sequence: got an empty name, expected a recording's folder or synthetic:NAME");
-#ifdef FOOTHOLD_HAS_SYNTHETIC
   if (is_synthetic_spec(source)) return make_synthetic_sequence(parse_synthetic_spec(source), context);
-#endif
   try {
     return open_folder(source, context, options);
   } catch (const fs::filesystem_error& error) {

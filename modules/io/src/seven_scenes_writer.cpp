@@ -74,7 +74,8 @@ void SevenScenesWriter::write(const RgbdFrame& frame) {
   std::snprintf(stem.data(), stem.size(), "frame-%06d", num_frames());
   write_png(path(std::string(stem.data()) + ".color.png"), frame.colour);
   write_png(path(std::string(stem.data()) + ".depth.png"), depth_in_millimetres(frame.depth));
-  if (has_poses_) write_file_atomically(path(std::string(stem.data()) + ".pose.txt"), transform_text(*frame.world_from_camera));
+  if (has_poses_)
+    write_file_atomically(path(std::string(stem.data()) + ".pose.txt"), transform_text(*frame.world_from_camera), Durability::kCrash);
   times_s_.push_back(frame.timestamp_s);
 }
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What the tests of module io share: a folder that cleans up after itself, small frames, and the text of expected errors.
+#pragma once
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "foothold/api/frame.h"
+#include "foothold/base/error.h"
+
+namespace foothold::test {
+
+/// A new folder, deleted with all it holds at the end of the test.
+class TempFolder {
+ public:
+  TempFolder();
+  ~TempFolder();
+  TempFolder(const TempFolder&) = delete;
+  TempFolder& operator=(const TempFolder&) = delete;
+
+  std::string path() const { return path_.string(); }
+  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+  /// Files directly inside.
+  int num_files() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+void write_text(const std::string& path, const std::string& text);
+std::string read_text(const std::string& path);
+/// Cuts a file to a part of its length.
+void truncate_file(const std::string& path, double fraction);
+
+constexpr int kTestWidth = 32;
+constexpr int kTestHeight = 24;
+
+/// Frame i of a small recording: every pixel, colour and pose differs from those of other frames. Depths are whole millimetres.
+RgbdFrame small_frame(int i);
+
+/// Writes a 7-Scenes folder of `num_frames` small frames.
+void write_small_recording(const std::string& folder, int num_frames);
+
+/// The message of the FileError or InvalidSettings that a call throws; fails the test if it throws nothing or something else.
+template <class Exception = FileError, class Call>
+std::string error_of(Call&& call) {
+  try {
+    call();
+  } catch (const Exception& error) {
+    return error.what();
+  }
+  return "(nothing was thrown)";
+}
+
+}  // namespace foothold::test

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include <algorithm>
+
+#include "foothold/io/image_file.h"
+#include "foothold/io/sequence.h"
+#include "foothold/io/seven_scenes_writer.h"
+#include "io_fixtures.h"
+#include "support/catch.h"
+
+namespace foothold {
+namespace {
+
+using namespace test;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+/// What opening and reading a whole folder complains about.
+std::string open_error(const std::string& folder) {
+  return error_of([&] {
+    const auto sequence = open_sequence(folder, Context());
+    for (int i = 0; i < sequence->num_frames(); ++i) sequence->load(i);
+  });
+}
+
+bool same_depth(const Image<float>& a, const Image<float>& b) {
+  return a.width() == b.width() && a.height() == b.height() && std::equal(a.data(), a.data() + a.size(), b.data());
+}
+
+bool same_colour(const Image<Rgb8>& a, const Image<Rgb8>& b) {
+  return a.width() == b.width() && a.height() == b.height() &&
+         std::equal(a.data(), a.data() + a.size(), b.data(), [](Rgb8 p, Rgb8 q) { return p.r == q.r && p.g == q.g && p.b == q.b; });
+}
+
+const char* const kPose = "frame-000001.pose.txt";
+
+/// A pose with one entry replaced.
+std::string pose_text(const std::string& first_entry, const std::string& last_row = "0 0 0 1") {
+  return first_entry + " 0 0 1\n0 1 0 2\n0 0 1 3\n" + last_row + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("SevenScenesWriter: what it writes, open_sequence reads back") {
+  const TempFolder temp;
+  const std::string folder = temp / "recording";
+  write_small_recording(folder, 3);
+  const auto sequence = open_sequence(folder, Context());
+  CHECK(sequence->name() == "recording");
+  REQUIRE(sequence->num_frames() == 3);
+  for (int i = 0; i < 3; ++i) {
+    const RgbdFrame expected = small_frame(i);
+    const RgbdFrame frame = sequence->load(i);
+    CHECK(describe_frame_error(frame.view()).empty());
+    CHECK(same_depth(frame.depth, expected.depth));
+    CHECK(same_colour(frame.colour, expected.colour));
+    CHECK(frame.index == i);
+    CHECK(frame.timestamp_s == Approx(expected.timestamp_s).epsilon(1e-9));
+    CHECK(frame.calibration.depth.fy == expected.calibration.depth.fy);
+    CHECK(frame.calibration.depth.cy == expected.calibration.depth.cy);
+    REQUIRE(frame.world_from_camera.has_value());
+    CHECK(translation_distance_m(*frame.world_from_camera, *expected.world_from_camera) < 1e-6F);
+    CHECK(rotation_distance_rad(*frame.world_from_camera, *expected.world_from_camera) < 1e-6F);
+  }
+}
+
+TEST_CASE("SevenScenesWriter: an unregistered calibration survives") {
+  const TempFolder temp;
+  RgbdFrame frame = small_frame(0);
+  frame.calibration.colour = {33.0F, 34.0F, 15.0F, 12.0F};
+  Tangent6 tangent;
+  tangent << 0.01F, 0.02F, 0.03F, 0.025F, 0.0F, -0.001F;
+  frame.calibration.depth_from_colour = se3_exp(tangent);
+  SevenScenesWriter writer(temp.path());
+  writer.write(frame);
+  const RgbdFrame read = open_sequence(temp.path(), Context())->load(0);
+  CHECK(read.calibration.colour.fx == 33.0F);
+  CHECK(translation_distance_m(read.calibration.depth_from_colour, frame.calibration.depth_from_colour) < 1e-7F);
+  CHECK(rotation_distance_rad(read.calibration.depth_from_colour, frame.calibration.depth_from_colour) < 1e-6F);
+
+  const RgbdFrame registered = open_sequence(temp.path(), Context(), {true})->load(0);
+  CHECK(registered.calibration.colour.fx == frame.calibration.depth.fx);
+  CHECK(registered.calibration.depth_from_colour.translation.isZero());
+  CHECK_FALSE(same_colour(registered.colour, read.colour));
+}
+
+TEST_CASE("SevenScenesWriter: depth that millimetres cannot hold becomes no measurement") {
+  const TempFolder temp;
+  RgbdFrame frame = small_frame(0);
+  frame.depth(1, 0) = -1.0F;
+  frame.depth(2, 0) = std::numeric_limits<float>::quiet_NaN();
+  frame.depth(3, 0) = 65.535F;
+  frame.depth(4, 0) = 65.534F;
+  SevenScenesWriter writer(temp.path());
+  writer.write(frame);
+  const RgbdFrame read = open_sequence(temp.path(), Context())->load(0);
+  for (int u = 0; u < 4; ++u) CHECK(read.depth(u, 0) == 0.0F);
+  CHECK(read.depth(4, 0) == 65.534F);
+}
+
+TEST_CASE("SevenScenesWriter: refuses a folder that holds frames, and a file in the folder's place") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 1);
+  CHECK_THAT(error_of([&] { SevenScenesWriter writer(temp.path()); }), Contains(temp.path()) && Contains("holds frames already"));
+  write_text(temp / "file", "");
+  CHECK_THAT(error_of([&] { SevenScenesWriter writer(temp / "file"); }), Contains(temp / "file"));
+}
+
+TEST_CASE("open_sequence: a 7-Scenes folder without poses has frames without poses") {
+  const TempFolder temp;
+  SevenScenesWriter writer(temp.path());
+  RgbdFrame frame = small_frame(0);
+  frame.world_from_camera.reset();
+  writer.write(frame);
+  CHECK_FALSE(open_sequence(temp.path(), Context())->load(0).world_from_camera.has_value());
+}
+
+TEST_CASE("open_sequence: without timestamps, frames are a thirtieth of a second apart") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 2);
+  fs::remove(temp / "timestamps.txt");
+  CHECK(open_sequence(temp.path(), Context())->load(1).timestamp_s == Approx(1.0 / 30.0));
+}
+
+TEST_CASE("open_sequence: the intrinsics of 7-Scenes mean its unregistered colour camera, others a registered one") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 1);
+  fs::remove(temp / "colour-intrinsics.txt");
+  fs::remove(temp / "depth-from-colour.txt");
+
+  const RgbdCalibration other = open_sequence(temp.path(), Context())->load(0).calibration;
+  CHECK(other.colour.fx == other.depth.fx);
+  CHECK(other.depth_from_colour.translation.isZero());
+
+  for (const bool has_file : {true, false}) {
+    write_text(temp / "camera-intrinsics.txt", "585 0 320\n0 585 240\n0 0 1\n");
+    if (!has_file) fs::remove(temp / "camera-intrinsics.txt");
+    const RgbdCalibration own = open_sequence(temp.path(), Context())->load(0).calibration;
+    CHECK(own.depth.fx == 585.0F);
+    CHECK(own.colour.fx == 525.0F);
+    // METHOD's transform maps depth to colour: the colour camera sits 2.5 cm to the right, seen from the depth camera.
+    CHECK(own.depth_from_colour.translation.x() == Approx(0.0255).margin(3e-4));
+    CHECK(is_rigid(own.depth_from_colour, 1e-6F));
+  }
+}
+
+TEST_CASE("open_sequence: rotations are made orthonormal") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 2);
+  write_text(temp / kPose, "0.9996 0 0 1\n0 1.0004 0 2\n0 0 1 3\n0 0 0 1\n");
+  CHECK(is_rigid(*open_sequence(temp.path(), Context())->load(1).world_from_camera, 1e-6F));
+}
+
+TEST_CASE("open_sequence: each thing missing from a 7-Scenes folder is named") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 3);
+  const std::string name = GENERATE(as<std::string>{}, "frame-000001.color.png", "frame-000001.depth.png", "frame-000001.pose.txt",
+                                    "frame-000000.pose.txt", "frame-000002.depth.png");
+  fs::remove(temp / name);
+  CHECK_THAT(open_error(temp.path()), Contains(temp / name) && Contains("no such file"));
+}
+
+TEST_CASE("open_sequence: a gap in the numbering is explained") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 4);
+  for (const std::string suffix : {".color.png", ".depth.png", ".pose.txt"}) fs::remove(temp / ("frame-000002" + suffix));
+  CHECK_THAT(open_error(temp.path()), Contains("frame-000002.depth.png") && Contains("without gaps") && Contains("frame 3"));
+  for (const std::string suffix : {".color.png", ".depth.png", ".pose.txt"}) fs::remove(temp / ("frame-000000" + suffix));
+  CHECK_THAT(open_error(temp.path()), Contains("frame-000000.depth.png") && Contains("from 0"));
+}
+
+TEST_CASE("open_sequence: a damaged image is named") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 2);
+  const std::string path = temp / GENERATE(as<std::string>{}, "frame-000001.color.png", "frame-000001.depth.png");
+  SECTION("cut short") {
+    truncate_file(path, GENERATE(0.0, 0.01, 0.5, 0.99));
+    CHECK_THAT(open_error(temp.path()), Contains(path) && Contains("expected a complete PNG or JPEG image"));
+  }
+  SECTION("a byte changed in the middle") {
+    std::string bytes = read_text(path);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x55);
+    write_text(path, bytes);
+    CHECK_THAT(open_error(temp.path()), Contains(path));
+  }
+  SECTION("another kind of file") {
+    write_text(path, "GIF89a and so on");
+    CHECK_THAT(open_error(temp.path()), Contains(path) && Contains("signature"));
+  }
+}
+
+TEST_CASE("open_sequence: depth must be 16 bits, and colour as large as depth") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 1);
+  SECTION("kind of pixel") {
+    write_png(temp / "frame-000000.depth.png", Image<Rgb8>(kTestWidth, kTestHeight));
+    CHECK_THAT(open_error(temp.path()),
+               Contains("frame-000000.depth.png") && Contains("3 channel(s) of 8 bits") && Contains("one channel of 16 bits"));
+  }
+  SECTION("size") {
+    write_png(temp / "frame-000000.color.png", Image<Rgb8>(kTestWidth, kTestHeight + 1));
+    CHECK_THAT(open_error(temp.path()), Contains("frame-000000.color.png") && Contains("32x25") && Contains("32x24"));
+  }
+}
+
+TEST_CASE("open_sequence: a bad pose is named, with the value") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 2);
+  struct Case {
+    std::string text;
+    std::string value;
+  };
+  const Case bad = GENERATE(values<Case>({{"", "0 numbers"},
+                                          {"1 0 0 1\n0 1 0 2\n0 0 1", "11 numbers"},
+                                          {pose_text("nan"), "'nan'"},
+                                          {pose_text("inf"), "'inf'"},
+                                          {pose_text("-1.#IND"), "'-1.#IND'"},
+                                          {pose_text("one"), "'one'"},
+                                          {pose_text("1,0"), "'1,0'"},
+                                          {pose_text("1.02"), "a rotation"},
+                                          {pose_text("-1"), "determinant -1"},
+                                          {pose_text("0"), "a rotation"},
+                                          {pose_text("1e300"), "a rotation"},
+                                          {pose_text("1", "0 0 0 2"), "0 0 0 2"},
+                                          {pose_text("1") + "5", "17 numbers"},
+                                          {"nan nan nan nan nan nan nan nan nan nan nan nan nan nan nan nan", "'nan'"}}));
+  write_text(temp / kPose, bad.text);
+  CAPTURE(bad.text);
+  CHECK_THAT(open_error(temp.path()), Contains(temp / kPose) && Contains(bad.value) && Contains("expected"));
+}
+
+TEST_CASE("open_sequence: bad intrinsics are named, with the value") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 1);
+  const std::string name = GENERATE(as<std::string>{}, "camera-intrinsics.txt", "colour-intrinsics.txt");
+  struct Case {
+    std::string text;
+    std::string value;
+  };
+  const Case bad = GENERATE(values<Case>({{"0 0 16 0 40 12 0 0 1", "focal length of 0 "},
+                                          {"-40 0 16 0 40 12 0 0 1", "-40"},
+                                          {"40 0 16 0 -40.5 12 0 0 1", "-40.5"},
+                                          {"40 0 nan 0 40 12 0 0 1", "'nan'"},
+                                          {"40 1 16 0 40 12 0 0 1", "40 1 16"},
+                                          {"40 40 16 12", "4 numbers"}}));
+  write_text(temp / name, bad.text);
+  CHECK_THAT(open_error(temp.path()), Contains(temp / name) && Contains(bad.value) && Contains("expected"));
+}
+
+TEST_CASE("open_sequence: timestamps must fit the frames") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 2);
+  const std::string text = GENERATE(as<std::string>{}, "0 1.0\n", "0 1.0\n1 1.1\n2 1.2\n", "0 1.0\n2 1.1\n", "0 1.0\n1\n", "0 1.0\n1 x\n");
+  write_text(temp / "timestamps.txt", text);
+  CHECK_THAT(open_error(temp.path()), Contains(temp / "timestamps.txt") && Contains("expected"));
+}
+
+TEST_CASE("open_sequence: says what is wrong with a folder that holds no recording") {
+  const TempFolder temp;
+  CHECK_THAT(open_error(temp.path()), Contains(temp.path()) && Contains("empty folder"));
+  CHECK_THAT(open_error(temp / "absent"), Contains(temp / "absent") && Contains("no such folder"));
+  write_text(temp / "note.txt", "");
+  CHECK_THAT(open_error(temp.path()), Contains("another kind") && Contains("7-Scenes") && Contains("TUM"));
+  CHECK_THAT(open_error(temp / "note.txt"), Contains("got a file"));
+  write_text(temp / "TrainSplit.txt", "sequence1\n");
+  CHECK_THAT(open_error(temp.path()), Contains("scene") && Contains("seq-01"));
+}
+
+}  // namespace foothold

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "tum_sequence.h"
+
+#include "foothold/io/image_file.h"
+#include "foothold/io/trajectory.h"
+#include "io_fixtures.h"
+#include "support/catch.h"
+
+namespace foothold {
+namespace {
+
+using namespace test;
+using Catch::Matchers::Contains;
+namespace fs = std::filesystem;
+
+/// Collects log messages.
+struct LoggingContext {
+  std::string messages;
+  Context context{[this] {
+    ContextOptions options;
+    options.log = [this](LogLevel, const std::string& message) { messages += message + "\n"; };
+    return options;
+  }()};
+};
+
+void write_images(const std::string& folder, const std::string& name, int value) {
+  fs::create_directories(folder + "/depth");
+  fs::create_directories(folder + "/rgb");
+  write_png(folder + "/depth/" + name + ".png", Image<std::uint16_t>(8, 6, static_cast<std::uint16_t>(5000 + value)));
+  write_png(folder + "/rgb/" + name + ".png", Image<Rgb8>(8, 6, {static_cast<std::uint8_t>(value), 0, 0}));
+}
+
+/// A recording of three frames at 1.0, 1.1 and 1.2 s, colour 5 ms later; ground truth moves along x at 1 m/s, sampled between the frames.
+void write_tum_recording(const std::string& folder) {
+  for (int i = 0; i < 3; ++i) write_images(folder, std::to_string(i), i);
+  write_text(folder + "/depth.txt", "# depth maps\n1.0 depth/0.png\n1.1 depth/1.png\n1.2 depth/2.png\n");
+  write_text(folder + "/rgb.txt", "# colour\n1.005 rgb/0.png\n1.105 rgb/1.png\n1.205 rgb/2.png\n");
+  write_text(
+      folder + "/groundtruth.txt",
+      "# truth\n0.96 0.96 0 0 0 0 0 1\n1.04 1.04 0 0 0 0 0 1\n1.08 1.08 0 0 0 0 0 1\n1.14 1.14 0 0 0 0 0 1\n1.22 1.22 0 0 0 0 0 1\n");
+}
+
+std::string open_error(const std::string& folder) {
+  return error_of([&] {
+    const auto sequence = open_sequence(folder, Context());
+    for (int i = 0; i < sequence->num_frames(); ++i) sequence->load(i);
+  });
+}
+
+std::vector<io::StampedFile> stamped(const std::vector<double>& times_s) {
+  std::vector<io::StampedFile> files;
+  for (const double time_s : times_s) files.push_back({time_s, std::to_string(time_s)});
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("open_sequence: reads a TUM folder, depth in fifths of a millimetre, poses interpolated") {
+  const TempFolder temp;
+  const std::string folder = temp / "rgbd_dataset_freiburg2_desk";
+  write_tum_recording(folder);
+  const auto sequence = open_sequence(folder, Context());
+  CHECK(sequence->name() == "rgbd_dataset_freiburg2_desk");
+  REQUIRE(sequence->num_frames() == 3);
+  for (int i = 0; i < 3; ++i) {
+    const RgbdFrame frame = sequence->load(i);
+    CHECK(describe_frame_error(frame.view()).empty());
+    CHECK(frame.depth(3, 3) == static_cast<float>(5000 + i) / 5000.0F);
+    CHECK(frame.colour(3, 3).r == i);
+    CHECK(frame.timestamp_s == Approx(1.0 + 0.1 * i));
+    REQUIRE(frame.world_from_camera.has_value());
+    CHECK(frame.world_from_camera->translation.x() == Approx(1.0 + 0.1 * i).epsilon(1e-6));
+    CHECK(frame.calibration.depth.fx == 520.9F);
+    CHECK(frame.calibration.colour.fx == 520.9F);
+  }
+}
+
+TEST_CASE("open_sequence: a TUM folder's camera is told by its file, its name, or is ROS's default") {
+  struct Case {
+    std::string name;
+    float fx;
+  };
+  const Case c = GENERATE(values<Case>({{"rgbd_dataset_freiburg1_xyz", 517.3F},
+                                        {"freiburg3_long", 535.4F},
+                                        {"fr2_desk", 520.9F},
+                                        {"tum-fr3-teddy", 535.4F},
+                                        {"fr15", 525.0F},
+                                        {"from3", 525.0F},
+                                        {"room", 525.0F}}));
+  const TempFolder temp;
+  write_tum_recording(temp / c.name);
+  CHECK(open_sequence(temp / c.name, Context())->load(0).calibration.depth.fx == c.fx);
+  write_text(temp / (c.name + "/camera-intrinsics.txt"), "400 0 4 0 401 3 0 0 1");
+  CHECK(open_sequence(temp / c.name, Context())->load(0).calibration.depth.fx == 400.0F);
+}
+
+TEST_CASE("open_sequence: TUM frames without ground truth are left out with a warning, or come without a pose") {
+  const TempFolder temp;
+  write_tum_recording(temp.path());
+  write_text(temp / "groundtruth.txt", "0.99 0 0 0 0 0 0 1\n1.05 0 0 0 0 0 0 1\n1.19 0 0 0 0 0 0 1\n1.21 0 0 0 0 0 0 1\n");
+  LoggingContext log;
+  const auto with_poses = open_sequence(temp.path(), log.context);
+  CHECK(with_poses->num_frames() == 2);
+  CHECK(with_poses->load(1).timestamp_s == Approx(1.2));
+  CHECK_THAT(log.messages, Contains(temp / "groundtruth.txt") && Contains("1 frames, which are left out"));
+  SequenceOptions options;
+  options.only_with_pose = false;
+  const auto all = open_sequence(temp.path(), Context(), options);
+  REQUIRE(all->num_frames() == 3);
+  CHECK(all->load(0).world_from_camera.has_value());
+  CHECK_FALSE(all->load(1).world_from_camera.has_value());
+}
+
+TEST_CASE("open_sequence: a TUM folder without ground truth has frames without poses") {
+  const TempFolder temp;
+  write_tum_recording(temp.path());
+  fs::remove(temp / "groundtruth.txt");
+  const auto sequence = open_sequence(temp.path(), Context());
+  REQUIRE(sequence->num_frames() == 3);
+  CHECK_FALSE(sequence->load(0).world_from_camera.has_value());
+}
+
+TEST_CASE("open_sequence: each thing wrong with a TUM folder is named") {
+  const TempFolder temp;
+  write_tum_recording(temp.path());
+  const auto breaks = [&](const std::string& name, const std::string& text) {
+    write_text(temp / name, text);
+    const std::string error = open_error(temp.path());
+    CHECK_THAT(error, Contains(temp / name));
+    return error;
+  };
+  SECTION("missing list") {
+    fs::remove(temp / "rgb.txt");
+    CHECK_THAT(open_error(temp.path()), Contains(temp / "rgb.txt") && Contains("no such file"));
+  }
+  SECTION("missing image") {
+    fs::remove(temp / "rgb/1.png");
+    CHECK_THAT(open_error(temp.path()), Contains(temp / "rgb/1.png") && Contains("no such file"));
+  }
+  SECTION("damaged image") {
+    truncate_file(temp / "depth/2.png", 0.7);
+    CHECK_THAT(open_error(temp.path()), Contains(temp / "depth/2.png"));
+  }
+  SECTION("empty list") { CHECK_THAT(breaks("depth.txt", "# nothing\n"), Contains("no image")); }
+  SECTION("bad line") { CHECK_THAT(breaks("rgb.txt", "1.0 rgb/0.png\n1.1\n"), Contains("line 2") && Contains("1 words")); }
+  SECTION("bad time") { CHECK_THAT(breaks("rgb.txt", "noon rgb/0.png\n"), Contains("line 1") && Contains("'noon'")); }
+  SECTION("lists of different recordings") { CHECK_THAT(breaks("depth.txt", "9.0 depth/0.png\n"), Contains("20 ms")); }
+  SECTION("ground truth of another recording") {
+    CHECK_THAT(breaks("groundtruth.txt", "9 0 0 0 0 0 0 1\n"), Contains("no pose at the time"));
+  }
+  SECTION("negative intrinsics") { CHECK_THAT(breaks("camera-intrinsics.txt", "525 0 4 0 -525 3 0 0 1"), Contains("-525")); }
+}
+
+TEST_CASE("associate: nearest pairs first, each image once, none further apart than allowed") {
+  const auto pairs = io::associate(stamped({1.000, 1.033, 1.066, 1.200}), stamped({1.004, 1.020, 1.070, 1.230}), 0.02);
+  REQUIRE(pairs.size() == 3);
+  CHECK(pairs[0].colour.timestamp_s == 1.004);
+  CHECK(pairs[1].colour.timestamp_s == 1.020);
+  CHECK(pairs[2].colour.timestamp_s == 1.070);
+  // Both depth images are nearest to 1.010, which goes to the nearer one; the other takes what is left.
+  const auto contested = io::associate(stamped({1.000, 1.012}), stamped({0.985, 1.010}), 0.02);
+  REQUIRE(contested.size() == 2);
+  CHECK(contested[0].colour.timestamp_s == 0.985);
+  CHECK(contested[1].colour.timestamp_s == 1.010);
+  CHECK(io::associate(stamped({1.0}), stamped({1.1}), 0.02).empty());
+}
+
+TEST_CASE("open_sequence: in an ICL-NUIM folder, points land where its own convention puts them") {
+  const TempFolder temp;
+  for (int i = 1; i <= 2; ++i) write_images(temp.path(), std::to_string(i), i);
+  write_text(temp / "associations.txt", "1 depth/1.png 1 rgb/1.png\n2 depth/2.png 2 rgb/2.png\n");
+  Tangent6 tangent;
+  tangent << 0.3F, 0.2F, -0.1F, 1.0F, 2.0F, 3.0F;
+  write_trajectory(temp / "livingRoom1.gt.freiburg", {{1.0, SE3{}}, {2.0, se3_exp(tangent)}});
+  const auto sequence = open_sequence(temp.path(), Context());
+  REQUIRE(sequence->num_frames() == 2);
+  const SE3 theirs = read_trajectory(temp / "livingRoom1.gt.freiburg")[1].world_from_camera;
+  const RgbdFrame frame = sequence->load(1);
+  CHECK(frame.timestamp_s == Approx(2.0 / 30.0));
+  // Their camera: fy = -480, y upwards. Their point in their world, and ours in ours, are the same but for the mirrored y axis.
+  const Intrinsics their_camera{481.2F, -480.0F, 319.5F, 239.5F};
+  for (const Eigen::Vector2f& pixel : {Eigen::Vector2f(0.0F, 0.0F), Eigen::Vector2f(400.0F, 100.0F), Eigen::Vector2f(320.0F, 470.0F)}) {
+    const Eigen::Vector3f their_point = theirs * their_camera.back_project(pixel.x(), pixel.y(), 1.5F);
+    const Eigen::Vector3f our_point = *frame.world_from_camera * frame.calibration.depth.back_project(pixel.x(), pixel.y(), 1.5F);
+    CHECK((our_point - Eigen::Vector3f(their_point.x(), -their_point.y(), their_point.z())).norm() < 1e-5F);
+  }
+  CHECK(is_rigid(*frame.world_from_camera, 1e-6F));
+}
+
+TEST_CASE("parse_associations: takes either order, and names a bad line") {
+  const auto swapped = io::parse_associations("1.0 rgb/a.png 1.01 depth/a.png\n", "a.txt");
+  REQUIRE(swapped.size() == 1);
+  CHECK(swapped[0].depth.name == "depth/a.png");
+  CHECK(swapped[0].depth.timestamp_s == 1.01);
+  CHECK_THAT(error_of([] { io::parse_associations("1.0 rgb/a.png\n", "a.txt"); }), Contains("a.txt") && Contains("line 1"));
+  CHECK_THAT(error_of([] { io::parse_associations("1 x/a.png 1 y/a.png\n", "a.txt"); }), Contains("depth"));
+}
+
+}  // namespace foothold
