@@ -34,7 +34,7 @@ LIBRARIES = [
     ("nlohmann-json", r"nlohmann/", ["modules/io", "modules/learning", "apps", "tests/io", "tests/learning", "tests/apps"]),
     ("CLI11", r"CLI/", ["apps"]),
     ("spdlog", r"spdlog/", ["apps"]),
-    ("oneTBB", r"(oneapi/)?tbb/", ["modules/base/include/foothold/base/exec", "modules/base/src"]),
+    ("oneTBB", r"(oneapi/)?tbb/", ["modules/base/include/foothold/base/exec", "modules/base/src", "tests/support"]),
     ("OpenMP", r"omp\.h$", []),
     ("Catch2", r"catch2/", ["tests"]),
 ]
