@@ -57,14 +57,15 @@ function(foothold_app name)
   set_property(GLOBAL APPEND PROPERTY FOOTHOLD_APPS ${name})
 endfunction()
 
-# foothold_test(<module> SOURCES ... [LIBRARIES ...])
+# foothold_test(<module> SOURCES ... [LIBRARIES ...] [PROPERTIES ...])
 #
-# An executable foothold_<module>_tests whose Catch2 test cases become CTest tests. It may see the module's private headers.
+# An executable foothold_<module>_tests whose Catch2 test cases become CTest tests. It may see the module's private headers. PROPERTIES are those
+# of each CTest test, as set_tests_properties() takes them.
 function(foothold_test module)
-  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
   set(target foothold_${module}_tests)
   add_executable(${target} ${arg_SOURCES})
   target_link_libraries(${target} PRIVATE foothold_flags foothold_test_support foothold::${module} ${arg_LIBRARIES})
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/modules/${module}/src)
-  catch_discover_tests(${target} TEST_PREFIX "${module}/" DISCOVERY_MODE PRE_TEST)
+  catch_discover_tests(${target} TEST_PREFIX "${module}/" DISCOVERY_MODE PRE_TEST PROPERTIES ${arg_PROPERTIES})
 endfunction()
