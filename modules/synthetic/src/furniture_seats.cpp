@@ -28,8 +28,9 @@ RoomBuilder Choices::jitter(const RoomBuilder& b, float shift_m, float z, float 
 
 Colour Choices::colour() {
   const float hue = between(0.0F, 6.0F);
-  const float saturation = between(0.15F, 0.9F);
-  const float value = between(0.25F, 0.92F);
+  const float vividness = between(0.0F, 1.0F);
+  const float saturation = 0.1F + 0.7F * vividness * vividness;
+  const float value = between(0.2F, 0.8F);
   const auto channel = [&](float shift) {
     const float k = std::fmod(hue + shift, 6.0F);
     return value * (1.0F - saturation * std::fmax(0.0F, std::fmin(1.0F, std::fmin(k, 4.0F - k))));

@@ -52,12 +52,13 @@ inline Material keys(const Colour& colour = {0.2F, 0.2F, 0.22F}, const Colour& g
 }
 inline Material screen(const Colour& top, const Colour& bottom) { return {Texture::kScreen, bottom, top, 0.1F, 0.5F, 0.8F}; }
 inline Material foliage(const Colour& colour, float leaf_m = 0.07F) {
-  return {Texture::kFoliage, colour, 0.35F * colour, leaf_m, 0.9F, 0.95F};
+  return {Texture::kFoliage, colour, 0.35F * colour, leaf_m, 0.9F, 1.0F};
 }
 /// Polished metal or dark gloss: the depth camera sees it in part.
 inline Material gloss(const Colour& colour, float infrared_return = 0.75F) {
   return {Texture::kPlain, colour, 0.5F * colour, 0.5F, 0.25F, infrared_return};
 }
-inline Material glass(const Colour& colour) { return {Texture::kPoster, colour, {0.5F, 0.6F, 0.7F}, 0.3F, 0.3F, 0.1F}; }
+/// A window pane with a blurred outdoors behind it.
+inline Material glass(const Colour& sky) { return {Texture::kFoliage, sky, {0.4F, 0.5F, 0.38F}, 0.8F, 0.35F, 0.1F}; }
 
 }  // namespace foothold::synthetic_detail

@@ -79,8 +79,8 @@ inline float lines(float x, float period, float width, float footprint) {
 /// A vivid or pale colour from 64 random bits.
 inline Eigen::Vector3f random_colour(std::uint64_t bits) {
   const float hue = uniform_of(bits, 0) * 6.0F;
-  const float saturation = 0.2F + 0.7F * uniform_of(bits, 1);
-  const float value = 0.25F + 0.65F * uniform_of(bits, 2);
+  const float saturation = 0.1F + 0.7F * uniform_of(bits, 1);
+  const float value = 0.2F + 0.6F * uniform_of(bits, 2);
   const auto channel = [&](float shift) {
     const float k = std::fmod(hue + shift, 6.0F);
     return value * (1.0F - saturation * saturate(std::min(k, 4.0F - k)));

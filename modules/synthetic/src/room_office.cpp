@@ -30,9 +30,9 @@ Room make_office() {
   world.shell(5.4F, 4.6F, 2.7F,
               {stripes({0.34F, 0.36F, 0.42F}, {0.22F, 0.24F, 0.3F}, 0.05F), tiles({0.85F, 0.85F, 0.84F}, {0.6F, 0.6F, 0.6F}, 0.6F, 0.1F),
                wall, wall, plaster({0.62F, 0.68F, 0.72F}), wall});
-  world.light({-1.4F, 0.6F, 2.6F}, {1.0F, 0.97F, 0.9F});
-  world.light({1.5F, -0.6F, 2.6F}, {0.95F, 0.97F, 1.0F});
-  world.light({0.2F, 2.0F, 1.8F}, {0.35F, 0.4F, 0.5F});
+  world.light({-1.4F, 0.6F, 2.6F}, {1.7F, 1.65F, 1.5F});
+  world.light({1.5F, -0.6F, 2.6F}, {1.6F, 1.65F, 1.7F});
+  world.light({0.2F, 2.0F, 1.8F}, {0.5F, 0.6F, 0.75F});
   for (const float x : {-1.65F, 0.0F, 1.65F}) workplace(world.against_north(x), choices);
   for (const float x : {-1.65F, 0.0F, 1.65F}) workplace(world.against_south(x), choices);
   for (const float x : {-1.5F, 0.3F}) framed_picture(world.against_north(x), 0.6F, 0.45F, 1.75F, choices);

@@ -48,8 +48,8 @@ Room make_stairs() {
   const Material wall = plaster({0.76F, 0.75F, 0.71F}, 0.35F, 1.3F);
   world.shell(3.2F, 6.0F, 4.4F,
               {tiles({0.55F, 0.53F, 0.5F}, {0.4F, 0.39F, 0.37F}, 0.4F, 0.15F), plain({0.8F, 0.8F, 0.8F}), wall, wall, wall, wall});
-  world.light({0.6F, -1.8F, 3.6F}, {2.2F, 2.1F, 1.9F});
-  world.light({-0.8F, 2.0F, 4.1F}, {1.6F, 1.6F, 1.7F});
+  world.light({0.6F, -1.8F, 3.6F}, {3.6F, 3.4F, 3.1F});
+  world.light({-0.8F, 2.0F, 4.1F}, {2.4F, 2.4F, 2.5F});
   const RoomBuilder stairs = world.at(-0.85F, -1.08F, 0.0F);
   flight(stairs);
   handrail(stairs);

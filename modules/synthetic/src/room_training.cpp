@@ -105,10 +105,52 @@ void dresser(const RoomBuilder& b, float width, Choices& choices) {
   if (choices.chance(0.5F)) box_stack(b.at(0.0F, -0.3F, 0.0F), 1, choices);
 }
 
+Material any_material(Choices& choices) {
+  const Colour colour = choices.colour();
+  switch (choices.below(6)) {
+    case 0:
+      return checker(colour, choices.colour(), choices.between(0.03F, 0.12F));
+    case 1:
+      return stripes(colour, choices.colour(), choices.between(0.015F, 0.08F));
+    case 2:
+      return poster(colour, choices.colour());
+    case 3:
+      return speckle(colour, choices.colour());
+    case 4:
+      return cover_material(choices);
+    default:
+      return furniture_material(choices);
+  }
+}
+
+/// A pile of boxes, balls and drums in any position, so that not everything stands square on a floor.
+void shapes(const RoomBuilder& b, float width, int count, Choices& choices) {
+  for (int i = 0; i < count; ++i) {
+    const RoomBuilder place = choices.jitter(b, 0.4F * width, choices.between(0.1F, 0.6F), 180.0F);
+    const float tilt_deg = choices.between(-60.0F, 60.0F);
+    const RoomBuilder at = place.pitched(tilt_deg).rolled(choices.between(-60.0F, 60.0F));
+    const Material material = any_material(choices);
+    const float size = choices.between(0.12F, 0.4F);
+    switch (choices.below(3)) {
+      case 0:
+        at.box(Vector3f::Zero(), {size, choices.between(0.1F, 0.4F), choices.between(0.05F, 0.6F)}, material);
+        break;
+      case 1:
+        at.sphere(Vector3f::Zero(), 0.5F * size, material);
+        break;
+      default:
+        at.cylinder(Vector3f::Zero(), 0.4F * size, choices.between(0.1F, 0.7F), material);
+        break;
+    }
+  }
+}
+
 /// One piece of furniture at a wall, `width` metres of which are free.
 void stand_something(const RoomBuilder& b, float width, Choices& choices) {
   b.target({0.0F, -0.3F, choices.between(0.5F, 1.3F)});
-  switch (choices.below(9)) {
+  switch (choices.below(10)) {
+    case 9:
+      return shapes(b.at(0.0F, -0.4F, 0.0F), width - 0.2F, 4 + choices.below(5), choices);
     case 0: {
       const float height = choices.between(1.1F, 2.1F);
       const float fill = choices.between(0.5F, 1.0F);
@@ -207,14 +249,14 @@ void furnish_middle(const RoomBuilder& world, Choices& choices) {
 
 void light_room(const RoomBuilder& world, float width, float depth, float height, Choices& choices) {
   const int num_lamps = 2 + choices.below(3);
-  const float power = choices.between(1.4F, 2.6F) / static_cast<float>(num_lamps);
+  const float power = choices.between(2.2F, 4.2F) / static_cast<float>(num_lamps);
   for (int i = 0; i < num_lamps; ++i) {
-    const Vector3f place{choices.between(-0.4F, 0.4F) * width, choices.between(-0.4F, 0.4F) * depth,
+    const Vector3f place{choices.between(-0.3F, 0.3F) * width, choices.between(-0.3F, 0.3F) * depth,
                          choices.between(0.75F, 0.98F) * height};
     const float warmth = choices.between(-0.12F, 0.18F);
     world.light(place, power * Colour(1.0F + warmth, 1.0F, 1.0F - warmth));
   }
-  world.room().ambient = Colour::Constant(choices.between(0.3F, 0.5F));
+  world.room().ambient = Colour::Constant(choices.between(0.35F, 0.6F));
 }
 
 }  // namespace

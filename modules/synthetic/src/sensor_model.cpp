@@ -92,7 +92,8 @@ class Measurement {
     const Material& material = room_.primitives[static_cast<std::size_t>(ideal_.primitive(su, sv))].material;
     const float facing = saturate(ideal_.incidence_cosine(su, sv) / model_.grazing_cosine - 0.5F);
     const float luck = saturate(0.5F + 1.4F * smooth + 0.12F * white);
-    if (luck > facing * material.infrared_return && facing * material.infrared_return < 1.0F) return 0.0F;
+    const float chance = facing * material.infrared_return;
+    if (chance < 1.0F && luck >= chance) return 0.0F;
 
     const float sigma = model_.disparity_sigma_px;
     const float disparity = model_.focal_baseline_px_m / z + sigma * (0.6F * white + 0.8F * kValueNoiseToUnitSigma * smooth);

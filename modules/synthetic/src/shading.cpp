@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "texture.h"
 
@@ -84,6 +85,10 @@ Shade Shading::operator()(std::int32_t primitive_index, float x, float y, float 
   const float cosine = normal.dot(ray_world) / ray_length;
   if (cosine > 0.0F) normal = -normal;
 
+  if (primitive.material.texture == Texture::kWood && surface.point.half_v > surface.point.half_u) {
+    std::swap(surface.point.u, surface.point.v);  // grain runs along the longer side
+    std::swap(surface.point.half_u, surface.point.half_v);
+  }
   surface.point.footprint_m = t * pixel_size_ / std::max(std::fabs(cosine), 0.1F);
   const Vector3f albedo = texture_colour(primitive.material, surface.point);
 

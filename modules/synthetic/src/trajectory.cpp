@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
+#include <set>
 
 #include "foothold/base/contract.h"
 #include "foothold/base/random.h"
@@ -38,8 +40,12 @@ constexpr float kLargestOffset_m = 1.0F;
 constexpr float kLargestYaw_rad = 45.0F * kRadPerDeg;
 constexpr float kLargestPitch_rad = 18.0F * kRadPerDeg;
 constexpr float kLargestRoll_rad = 18.0F * kRadPerDeg;
-constexpr float kShrink = 0.6F;  // of offsets that lead too near to something
+constexpr float kSmallestOverlap = 0.5F;  // share of a test view that lies in training views of the last seconds
+constexpr double kOverlapWindow_s = 8.0;
+constexpr float kShrink = 0.93F;  // of offsets that lead too near to something
 
+constexpr float kSlowestBlend = 0.7F;  // length of blended unit directions; shorter ones turn fast
+constexpr int kReach = 3;              // control points to either side whose surroundings a redrawn one changes
 constexpr int kMostRepairs = 60;
 constexpr double kCheckInterval_s = 0.2;
 
@@ -153,26 +159,55 @@ struct Trajectory::Path {
     t.turns_rad_[static_cast<std::size_t>(k)] = draw_in_box(random, {kLargestYaw_rad, kLargestPitch_rad, kLargestRoll_rad});
   }
 
-  /// Control points of the training path near which the camera comes too close to something, or turns too fast.
-  std::vector<int> faults(const Trajectory& t) const {
-    std::vector<int> result;
-    for (double time_s = 0.0; time_s < kNumPoints * kPointInterval_s; time_s += kCheckInterval_s) {
-      const int k = static_cast<int>(std::lround(time_s / kPointInterval_s)) % kNumPoints;
-      if (!result.empty() && result.back() == k) continue;
-      const bool swings = spline(t.directions_world_, time_s, kPointInterval_s).norm() < 0.7F;
-      if (swings || !is_good_view(room, t.world_from_camera(time_s))) result.push_back(k);
-    }
-    return result;
+  /// True if the training path comes too close to something, or turns too fast, within half an interval of a control point.
+  bool is_faulty(const Trajectory& t, int k) const {
+    return any_time_near(k, kPointInterval_s, [&](double time_s) {
+      const SE3 world_from_camera = t.world_from_camera(time_s);
+      const bool swings = spline(t.directions_world_, time_s, kPointInterval_s).norm() < kSlowestBlend;
+      return swings || !is_good_view(room, world_from_camera, sample_view(room, world_from_camera));
+    });
   }
 
-  std::vector<int> offset_faults(const Trajectory& t) const {
-    std::vector<int> result;
-    for (double time_s = 0.0; time_s < kNumOffsets * kOffsetInterval_s; time_s += kCheckInterval_s) {
-      const int k = static_cast<int>(std::lround(time_s / kOffsetInterval_s)) % kNumOffsets;
-      if (!result.empty() && result.back() == k) continue;
-      if (!is_good_view(room, t.world_from_camera(time_s))) result.push_back(k);
+  /// True if the test path comes too close to something, or sees too little of what training saw.
+  bool is_offset_faulty(const Trajectory& t, const Trajectory& train, int k) const {
+    return any_time_near(k, kOffsetInterval_s, [&](double time_s) {
+      const SE3 world_from_camera = t.world_from_camera(time_s);
+      const std::vector<Vector3f> points_camera = sample_view(room, world_from_camera);
+      return !is_good_view(room, world_from_camera, points_camera) ||
+             share_in_view(world_from_camera, points_camera, training_poses(train, time_s)) < kSmallestOverlap;
+    });
+  }
+
+  /// Training poses of the seconds before a time, and of the beginning.
+  static std::vector<SE3> training_poses(const Trajectory& train, double time_s) {
+    std::vector<SE3> poses;
+    const double last_s = std::max(time_s, kOverlapWindow_s);
+    for (double before_s = 0.0; before_s < kOverlapWindow_s; before_s += 0.5) poses.push_back(train.world_from_camera(last_s - before_s));
+    return poses;
+  }
+
+  template <class Condition>
+  static bool any_time_near(int k, double interval_s, const Condition& condition) {
+    for (double offset_s = -0.5 * interval_s; offset_s < 0.5 * interval_s; offset_s += kCheckInterval_s) {
+      if (condition(std::max(0.0, k * interval_s + offset_s))) return true;
     }
-    return result;
+    return false;
+  }
+
+  /// Redraws faulty control points, looking again only where that changed the path, until none is left or patience ends.
+  template <class IsFaulty, class Redraw>
+  static void repair(int num_points, const IsFaulty& faulty, const Redraw& redraw) {
+    std::vector<int> suspects(static_cast<std::size_t>(num_points));
+    std::iota(suspects.begin(), suspects.end(), 0);
+    for (int round = 0; round < kMostRepairs && !suspects.empty(); ++round) {
+      std::set<int> touched;
+      for (const int k : suspects) {
+        if (!faulty(k)) continue;
+        redraw(k, round);
+        for (int near = -kReach; near <= kReach; ++near) touched.insert((k + near + num_points) % num_points);
+      }
+      suspects.assign(touched.begin(), touched.end());
+    }
   }
 
   void make_training_path(Trajectory& t) {
@@ -180,30 +215,26 @@ struct Trajectory::Path {
     t.directions_world_.assign(kNumPoints, Vector3f::UnitX());
     t.directions_world_.back() = (room.targets_world.front() - 0.5F * (room.eye_low_world + room.eye_high_world)).normalized();
     for (int k = 0; k < kNumPoints; ++k) draw(t, k);
-    for (int round = 0; round < kMostRepairs; ++round) {
-      const std::vector<int> wrong = faults(t);
-      if (wrong.empty()) return;
-      for (const int k : wrong) {
-        draw(t, k);
-        draw_gaze(t, (k + 1) % kNumPoints);
-      }
-    }
+    repair(
+        kNumPoints, [&](int k) { return is_faulty(t, k); },
+        [&](int k, int) {
+          draw(t, k);
+          draw_gaze(t, (k + 1) % kNumPoints);
+        });
   }
 
-  void make_test_path(Trajectory& t) {
+  void make_test_path(Trajectory& t, const Trajectory& train) {
     t.eye_offsets_world_.resize(kNumOffsets);
     t.turns_rad_.resize(kNumOffsets);
     for (int k = 0; k < kNumOffsets; ++k) draw_offset(t, k);
-    for (int round = 0; round < kMostRepairs; ++round) {
-      const std::vector<int> wrong = offset_faults(t);
-      if (wrong.empty()) return;
-      for (const int k : wrong) {
-        const float scale = std::pow(kShrink, static_cast<float>(round) / 4.0F);
-        draw_offset(t, k);
-        t.eye_offsets_world_[static_cast<std::size_t>(k)] *= scale;
-        t.turns_rad_[static_cast<std::size_t>(k)] *= scale;
-      }
-    }
+    repair(
+        kNumOffsets, [&](int k) { return is_offset_faulty(t, train, k); },
+        [&](int k, int round) {
+          const float scale = std::pow(kShrink, static_cast<float>(round));
+          draw_offset(t, k);
+          t.eye_offsets_world_[static_cast<std::size_t>(k)] *= scale;
+          t.turns_rad_[static_cast<std::size_t>(k)] *= scale;
+        });
   }
 };
 
@@ -212,9 +243,10 @@ Trajectory::Trajectory(const Room& room, TrajectoryKind kind, std::uint64_t seed
   FOOTHOLD_EXPECTS(!room.targets_world.empty());
   Path{room, Random(room.seed, 1)}.make_training_path(*this);
   if (kind == TrajectoryKind::kTrain) return;
+  const Trajectory train = *this;
   kind_ = kind;
   seed_ = derive_seed(seed, 1);
-  Path{room, Random(room.seed, 2)}.make_test_path(*this);
+  Path{room, Random(room.seed, 2)}.make_test_path(*this, train);
 }
 
 SE3 Trajectory::world_from_camera(double time_s) const {
