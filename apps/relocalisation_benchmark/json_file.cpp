@@ -4,7 +4,6 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <thread>
-#include <utility>
 
 #include "outputs.h"
 
@@ -50,17 +49,9 @@ std::string processor_name() {
   return {};
 }
 
-/// Stages are named after the call that they belong to. Updates repeat stages of training: those keep the name that training gave them.
 Json stages_json(const MethodReport& report) {
-  const std::pair<const char*, const CallReport&> kinds[] = {
-      {"train/", report.train}, {"relocalise/", report.relocalise}, {"update/", report.update}};
   Json stages = Json::object();
-  for (const auto& [prefix, calls] : kinds) {
-    for (const auto& [stage, ms] : calls.stages_ms) {
-      const std::string key = stage.find('/') == std::string::npos ? prefix + stage : stage;
-      if (!stages.contains(key)) stages[key] = spread_json(ms);
-    }
-  }
+  for (const auto& [stage, ms] : stages_of(report)) stages[stage] = spread_json(ms);
   return stages;
 }
 

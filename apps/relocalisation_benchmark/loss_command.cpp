@@ -31,7 +31,7 @@ int run_loss(const LossOptions& options) {
   };
   if (!run_methods(options.common, protocol, result)) return apps::kInterrupted;
   std::printf("Tracking lost at every frame of %s%s\n\n%s", input.name.c_str(),
-              options.gap > 0 ? (", gap " + std::to_string(options.gap)).c_str() : "", summary_table(result).c_str());
+              options.gap > 0 ? (", gap " + std::to_string(options.gap)).c_str() : "", all_tables(result).c_str());
   std::printf("%s", write_outputs(options.common, result).c_str());
   return apps::kSuccess;
 }

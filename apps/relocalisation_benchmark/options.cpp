@@ -28,6 +28,23 @@ void assign(BenchmarkSettings& settings, const std::string& assignment) {
   assign_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
 }
 
+/// Decodes each frame when it is read, in the reader's thread.
+class UnhurriedPlayer : public FrameSource {
+ public:
+  UnhurriedPlayer(std::shared_ptr<const Sequence> sequence, std::vector<int> indices)
+      : sequence_(std::move(sequence)), indices_(std::move(indices)) {}
+  ReadStatus read(RgbdFrame& frame) override {
+    if (next_ == indices_.size()) return ReadStatus::kEnd;
+    frame = sequence_->load(indices_[next_++]);
+    return ReadStatus::kFrame;
+  }
+
+ private:
+  std::shared_ptr<const Sequence> sequence_;
+  std::vector<int> indices_;
+  std::size_t next_ = 0;
+};
+
 Forest make_forest(const std::string& choice, const BenchmarkSettings& settings) {
   if (choice == "default") return default_forest();
   if (choice == "random") return make_random_forest(settings.random_forest);
@@ -48,6 +65,9 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--stride", options.stride, "Use every Nth frame")->check(CLI::Range(1, 1000000))->capture_default_str();
   command.add_option("--seed", options.seed, "Seed of every random choice")->capture_default_str();
   apps::add_device_options(command, options.device);
+  command.add_flag(
+      "--exclusive-timing", options.exclusive_timing,
+      "Decode frames between the timed calls, not beside them in a thread: slower, but what is timed has the machine to itself");
   command.add_option("--json", options.json_file, "Write the results to FILE (docs/benchmark-json.md)")->type_name("FILE");
   command.add_option("--csv", options.csv_file, "Write a line per tested frame to FILE")->type_name("FILE");
   command.add_option("--plot", options.plot_file, "Draw recall over time and the trajectory to FILE.png")->type_name("FILE");
@@ -75,7 +95,8 @@ std::vector<std::pair<std::string, std::string>> describe_options(const CommonOp
           {"device", options.device.device},
           {"threads", std::to_string(options.device.num_threads)},
           {"stride", std::to_string(options.stride)},
-          {"seed", std::to_string(options.seed)}};
+          {"seed", std::to_string(options.seed)},
+          {"exclusive_timing", options.exclusive_timing ? "true" : "false"}};
 }
 
 EvaluationInput open_input(const CommonOptions& options, const std::string& sequence_spec, const std::string& range_text) {
@@ -90,7 +111,12 @@ EvaluationInput open_input(const CommonOptions& options, const std::string& sequ
   std::vector<int> indices;
   for (int index = range.begin; index < end; index += options.stride) indices.push_back(index);
   const std::string name = range_text.empty() ? sequence_spec : sequence_spec + "@" + range_text;
-  return {name, static_cast<int>(indices.size()), [sequence, indices] { return std::make_unique<SequencePlayer>(sequence, indices); }};
+  const bool exclusive = options.exclusive_timing;
+  const auto open = [sequence, indices, exclusive]() -> std::unique_ptr<FrameSource> {
+    if (exclusive) return std::make_unique<UnhurriedPlayer>(sequence, indices);
+    return std::make_unique<SequencePlayer>(sequence, indices);
+  };
+  return {name, static_cast<int>(indices.size()), open};
 }
 
 }  // namespace foothold::benchmark

@@ -25,6 +25,7 @@ struct CommonOptions {
   apps::DeviceOptions device;
   int stride = 1;
   std::uint64_t seed = 42;
+  bool exclusive_timing = false;
   std::string json_file;
   std::string csv_file;
   std::string plot_file;

@@ -12,8 +12,12 @@ namespace foothold::benchmark {
 
 /// A Markdown table for people, a row per method.
 std::string summary_table(const BenchmarkResult& result);
+/// A Markdown table of durations for people, a row per call and stage and a column per method.
+std::string duration_table(const BenchmarkResult& result);
 /// A Markdown table of recall against novelty, a row per bin and a column per method; empty if the result has no bins.
 std::string novelty_table(const BenchmarkResult& result);
+/// All tables that the result has something for.
+std::string all_tables(const BenchmarkResult& result);
 /// The result as a JSON document.
 std::string json_document(const BenchmarkResult& result);
 /// A line per tested frame and method.

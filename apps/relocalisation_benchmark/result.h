@@ -3,6 +3,7 @@
 /// What a benchmark found, before it is written in one form or another.
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -21,6 +22,10 @@ struct MethodResult {
   /// The settings that the method ran with: path without the method's name, value as text.
   std::vector<std::pair<std::string, std::string>> settings;
 };
+
+/// Durations by stage, over all kinds of call. Stages are named after the call that they belong to, such as "train/cluster"; updates repeat
+/// stages of training, and those keep the name and the numbers of training.
+std::map<std::string, Spread> stages_of(const MethodReport& report);
 
 struct BenchmarkResult {
   std::string protocol;  ///< "loss" or "split"

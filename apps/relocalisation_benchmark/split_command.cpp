@@ -46,8 +46,7 @@ int run_split(const SplitOptions& options) {
   if (!run_methods(options.common, protocol, result)) return apps::kInterrupted;
   for (MethodResult& method : result.methods) method.novelty = novelty_bins(method.log);
   const MethodReport& first = result.methods.front().report;
-  std::printf("Learnt %d frames, tested %d others\n\n%s\n%s", first.num_trained, first.num_tested, summary_table(result).c_str(),
-              novelty_table(result).c_str());
+  std::printf("Learnt %d frames, tested %d others\n\n%s", first.num_trained, first.num_tested, all_tables(result).c_str());
   std::printf("%s", write_outputs(options.common, result).c_str());
   return apps::kSuccess;
 }

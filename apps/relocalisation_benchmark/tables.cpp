@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
+#include <map>
+#include <set>
+#include <utility>
+
 #include "foothold/evaluation/text_table.h"
 #include "outputs.h"
 
 namespace foothold::benchmark {
 namespace {
+
+constexpr const char* kDurationKey = "\nCPU: of the calling thread, which is the whole work only with --threads 1.\n";
 
 /// What the columns of the summary mean.
 constexpr const char* kSummaryKey =
@@ -47,6 +53,35 @@ std::string summary_table(const BenchmarkResult& result) {
   return format_table(header, rows) + kSummaryKey;
 }
 
+std::string duration_table(const BenchmarkResult& result) {
+  const std::pair<const char*, Spread (*)(const MethodReport&)> calls[] = {
+      {"train", [](const MethodReport& report) { return report.train.wall_ms; }},
+      {"train, CPU", [](const MethodReport& report) { return report.train.cpu_ms; }},
+      {"relocalise", [](const MethodReport& report) { return report.relocalise.wall_ms; }},
+      {"relocalise, CPU", [](const MethodReport& report) { return report.relocalise.cpu_ms; }},
+      {"update", [](const MethodReport& report) { return report.update.wall_ms; }}};
+  std::set<std::string> stages;
+  std::vector<std::string> header = {"ms, median/p95"};
+  for (const MethodResult& method : result.methods) {
+    header.push_back(method.name);
+    for (const auto& [stage, ms] : stages_of(method.report)) stages.insert(stage);
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const auto& [name, durations_of] : calls) {
+    rows.push_back({name});
+    for (const MethodResult& method : result.methods) rows.back().push_back(spread(durations_of(method.report)));
+  }
+  if (result.methods.front().report.update.num_calls == 0) rows.pop_back();
+  for (const std::string& stage : stages) {
+    rows.push_back({stage});
+    for (const MethodResult& method : result.methods) {
+      const std::map<std::string, Spread> all = stages_of(method.report);
+      rows.back().push_back(all.count(stage) == 0 ? "" : spread(all.at(stage)));
+    }
+  }
+  return format_table(header, rows) + kDurationKey;
+}
+
 std::string novelty_table(const BenchmarkResult& result) {
   if (result.methods.empty() || result.methods.front().novelty.empty()) return {};
   std::vector<std::string> header = {"nearest training view", "frames"};
@@ -67,6 +102,13 @@ std::string novelty_table(const BenchmarkResult& result) {
     rows.push_back(std::move(row));
   }
   return format_table(header, rows);
+}
+
+std::string all_tables(const BenchmarkResult& result) {
+  std::string tables = summary_table(result) + "\n";
+  const std::string novelty = novelty_table(result);
+  if (!novelty.empty()) tables += novelty + "\n";
+  return tables + duration_table(result);
 }
 
 }  // namespace foothold::benchmark
