@@ -84,26 +84,10 @@ std::vector<FrameFiles> complete_frames(const fs::path& folder) {
 /// Times of the frames [s]: from timestamps.txt, or 30 Hz.
 std::vector<double> read_timestamps(const fs::path& folder, std::size_t num_frames) {
   constexpr double kFrameRate_hz = 30.0;
-  std::vector<double> times_s;
   const fs::path file = folder / "timestamps.txt";
-  if (!fs::exists(file)) {
-    for (std::size_t i = 0; i < num_frames; ++i) times_s.push_back(static_cast<double>(i) / kFrameRate_hz);
-    return times_s;
-  }
-  const std::string text = read_file(file, kMaxListFileBytes);
-  for (const TextLine& line : split_lines(text)) {
-    const std::string where = "line " + std::to_string(line.number);
-    const double index = parse_number(line.words.front(), file, "the frame index in " + where);
-    if (index != static_cast<double>(times_s.size()) || line.words.size() < 2) {
-      throw_file_error(file, in_quotes(line.words.front()) + " and " + std::to_string(line.words.size() - 1) + " numbers in " + where,
-                       "frame index " + std::to_string(times_s.size()) + " and its time [s]");
-    }
-    times_s.push_back(parse_number(line.words.back(), file, "the time in " + where));
-  }
-  if (times_s.size() != num_frames) {
-    throw_file_error(file, std::to_string(times_s.size()) + " lines",
-                     "one for each of the folder's " + std::to_string(num_frames) + " frames");
-  }
+  if (fs::exists(file)) return parse_timestamps(read_file(file, kMaxListFileBytes), num_frames, file);
+  std::vector<double> times_s;
+  for (std::size_t i = 0; i < num_frames; ++i) times_s.push_back(static_cast<double>(i) / kFrameRate_hz);
   return times_s;
 }
 
@@ -147,6 +131,24 @@ class SevenScenesSequence : public Sequence {
 }  // namespace
 
 bool looks_like_seven_scenes(const fs::path& folder) { return !list_frames(folder).empty(); }
+
+std::vector<double> parse_timestamps(std::string_view text, std::size_t num_frames, const fs::path& file) {
+  std::vector<double> times_s;
+  for (const TextLine& line : split_lines(text)) {
+    const std::string where = "line " + std::to_string(line.number);
+    const double index = parse_number(line.words.front(), file, "the frame index in " + where);
+    if (index != static_cast<double>(times_s.size()) || line.words.size() < 2) {
+      throw_file_error(file, in_quotes(line.words.front()) + " and " + std::to_string(line.words.size() - 1) + " numbers in " + where,
+                       "frame index " + std::to_string(times_s.size()) + " and its time [s]");
+    }
+    times_s.push_back(parse_number(line.words.back(), file, "the time in " + where));
+  }
+  if (times_s.size() != num_frames) {
+    throw_file_error(file, std::to_string(times_s.size()) + " lines",
+                     "one for each of the folder's " + std::to_string(num_frames) + " frames");
+  }
+  return times_s;
+}
 
 std::unique_ptr<Sequence> open_seven_scenes(const fs::path& folder, const SequenceOptions& options) {
   return std::make_unique<SevenScenesSequence>(folder, options);

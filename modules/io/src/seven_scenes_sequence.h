@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <memory>
+#include <string_view>
+#include <vector>
 
 #include "foothold/io/sequence.h"
 
@@ -13,8 +15,14 @@ namespace foothold::io {
 /// True if a folder holds files of this layout, whole or not.
 bool looks_like_seven_scenes(const std::filesystem::path& folder);
 
+/// Parses timestamps.txt: a line "index ... time [s]" for each frame, in order. @throws FileError
+std::vector<double> parse_timestamps(std::string_view text, std::size_t num_frames, const std::filesystem::path& file);
+
+/// Parses TrainSplit.txt or TestSplit.txt: lines of "sequenceN". @return "seq-NN" for each. @throws FileError
+std::vector<std::string> parse_split(std::string_view text, const std::filesystem::path& file);
+
 /// Opens a folder of frame-NNNNNN.{color.png|color.jpg,depth.png,pose.txt}, numbered from 0 without gaps. Every frame has a pose, or none
-/// has. timestamps.txt, if present, holds a line "index ... time [s]" for each frame; else frames are 1/30 s apart.
+/// has. Without timestamps.txt, frames are 1/30 s apart.
 /// @throws FileError naming the first file that is missing.
 std::unique_ptr<Sequence> open_seven_scenes(const std::filesystem::path& folder, const SequenceOptions& options);
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "foothold/io/sequence.h"
+#include "seven_scenes_sequence.h"
 #include "text_file.h"
 
 namespace foothold {
@@ -30,6 +31,13 @@ std::string sequence_folder(const io::TextLine& line, const fs::path& file) {
 
 }  // namespace
 
+std::vector<std::string> io::parse_split(std::string_view text, const fs::path& file) {
+  std::vector<std::string> sequences;
+  for (const TextLine& line : split_lines(text)) sequences.push_back(sequence_folder(line, file));
+  if (sequences.empty()) throw_file_error(file, "no sequence", "lines of sequenceN");
+  return sequences;
+}
+
 std::vector<std::string> read_split(const std::string& scene_folder, const std::string& split) {
   if (split != "train" && split != "test") throw InvalidSettings("split: got '" + split + "', expected train or test");
   const fs::path folder = scene_folder;
@@ -42,13 +50,11 @@ std::vector<std::string> read_split(const std::string& scene_folder, const std::
                     (is_sequence ? " This is one of its sequences; its scene would be " + parent.string() : ""));
   }
   std::vector<std::string> sequences;
-  const std::string text = io::read_file(file, io::kMaxNumbersFileBytes);
-  for (const io::TextLine& line : io::split_lines(text)) {
-    const fs::path sequence = folder / sequence_folder(line, file);
+  for (const std::string& name : io::parse_split(io::read_file(file, io::kMaxNumbersFileBytes), file)) {
+    const fs::path sequence = folder / name;
     if (!fs::is_directory(sequence)) throw FileError(sequence.string() + ": no such folder, but " + file.string() + " lists it");
     sequences.push_back(sequence.string());
   }
-  if (sequences.empty()) io::throw_file_error(file, "no sequence", "lines of sequenceN");
   return sequences;
 }
 
