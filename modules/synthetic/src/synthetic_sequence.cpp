@@ -37,6 +37,13 @@ Intrinsics intrinsics_for(int width, int height) {
   return result;
 }
 
+/// As many threads as a context has, but not the same: whoever waits for a result in that context shall not render frames meanwhile.
+Context rendering_context(const Context& context) {
+  ContextOptions options;
+  options.num_threads = context.num_threads();
+  return Context(options);
+}
+
 SE3 rolled(float roll_deg) {
   const float angle = roll_deg * 0.017453293F;
   SE3 result;
@@ -48,7 +55,7 @@ class SyntheticSequence final : public Sequence {
  public:
   SyntheticSequence(const SyntheticSequenceSettings& settings, const Context& context)
       : settings_(settings),
-        context_(context),
+        context_(rendering_context(context)),
         room_(make_room(settings.room)),
         trajectory_(room_, trajectory_kind(settings.trajectory), settings.seed),
         intrinsics_(intrinsics_for(settings.width, settings.height)) {}

@@ -60,7 +60,7 @@ std::string synthetic_spec(const SyntheticSequenceSettings& settings);
 
 /// A recording whose frames are rendered when they are loaded. Its name is the spec; colour and depth are registered; every pose is exact.
 ///
-/// @param context  Frames are rendered on its threads. load() may be called from several threads at once.
+/// @param context  Frames are rendered on the CPU by as many threads as it has. load() may be called from several threads at once.
 /// @throws InvalidSettings as validate() does.
 ///
 /// Determinism: a frame is a function of the settings and its index, whatever the threads.

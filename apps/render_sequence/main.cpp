@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// render_sequence: writes a rendered room, or any other recording, as a folder in the layout of 7-Scenes.
+#include <iostream>
+
+#include "common/app_main.h"
+#include "common/progress_bar.h"
+#include "foothold/io/sequence.h"
+#include "foothold/io/sequence_player.h"
+#include "foothold/io/seven_scenes_writer.h"
+#include "foothold/synthetic/synthetic_sequence.h"
+
+namespace foothold::apps {
+namespace {
+
+struct Options {
+  std::string sequence;
+  std::string out;
+  int stride = 1;
+  int num_threads = 0;
+};
+
+/// What can be rendered and how, for --help.
+std::string rooms_help() {
+  std::string text = "Rooms:";
+  for (const std::string& room : synthetic_room_names()) text += " " + room + ",";
+  text += " and training-K for K = 0, 1, 2, ...\nSettings of synthetic:ROOM?setting=value&setting=value:\n";
+  for (const SettingDescription& setting : describe_settings(SyntheticSequenceSettings{})) {
+    if (setting.path != "room") text += "  " + setting.path + " = " + setting.value + ": " + setting.help + "\n";
+  }
+  return text;
+}
+
+int render(const Options& options) {
+  ContextOptions context_options;
+  context_options.num_threads = options.num_threads;
+  context_options.log = log_to_stderr();
+  const Context context(context_options);
+  const std::shared_ptr<const Sequence> sequence = open_sequence(options.sequence, context);
+  const std::vector<int> indices = frame_indices(*sequence, options.stride);
+  SevenScenesWriter writer(options.out);
+  SequencePlayer player(sequence, indices);
+  RgbdFrame frame;
+  {
+    ProgressBar progress("rendering", static_cast<std::int64_t>(indices.size()));
+    while (!interrupted() && player.read(frame) == ReadStatus::kFrame) {
+      writer.write(frame);
+      progress.advance();
+    }
+  }
+  writer.finish();
+  std::cout << "wrote " << writer.num_frames() << " of " << indices.size() << " frames of " << sequence->name() << " to " << options.out
+            << "\n";
+  return interrupted() ? kInterrupted : kSuccess;
+}
+
+}  // namespace
+}  // namespace foothold::apps
+
+int main(int argc, char** argv) {
+  using namespace foothold::apps;
+  CLI::App app("Writes a rendered room, or any other recording, as a folder in the layout of 7-Scenes.", "render_sequence");
+  Options options;
+  app.add_option("--sequence", options.sequence,
+                 "synthetic:ROOM?setting=value&..., or a recording's folder; @A:B at the end selects frames")
+      ->required();
+  app.add_option("--out", options.out, "Folder to write; it must not hold frames already")->required()->type_name("DIR");
+  app.add_option("--stride", options.stride, "Use every Nth frame")->check(CLI::Range(1, 1000000))->capture_default_str();
+  app.add_option("--threads", options.num_threads, "Host threads; 0 for as many as the machine has")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  app.footer(rooms_help());
+  return run_app(app, argc, argv, [&] { return render(options); });
+}
