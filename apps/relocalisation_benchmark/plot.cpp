@@ -16,7 +16,10 @@ namespace {
 
 constexpr int kWidth = 1200;
 constexpr int kChartHeight = 440;
-constexpr int kMapHeight = 420;
+constexpr double kMostMapHeight = 420.0;
+constexpr double kLeastMapHeight = 150.0;
+constexpr double kMapHeader = 40.0;  ///< title above the map
+constexpr double kMapFooter = 40.0;  ///< scale bar below it
 constexpr int kMapsPerRow = 3;
 constexpr double kMargin = 24.0;
 constexpr double kTitleHeight = 13.0;
@@ -161,16 +164,25 @@ void draw_chart(Canvas& canvas, const BenchmarkResult& result) {
   }
 }
 
+/// The smallest box around points.
+Box bounds_of(const std::vector<Point>& points) {
+  Box bounds{points.front().x, points.front().y, points.front().x, points.front().y};
+  for (const Point& point : points) {
+    bounds = {std::min(bounds.left, point.x), std::min(bounds.top, point.y), std::max(bounds.right, point.x),
+              std::max(bounds.bottom, point.y)};
+  }
+  return bounds;
+}
+
 /// Fits points [m] into a box, keeping their proportions.
 class MapScale {
  public:
   MapScale(const std::vector<Point>& points, const Box& box) : box_(box) {
-    const auto [least_x, most_x] = std::minmax_element(points.begin(), points.end(), [](Point a, Point b) { return a.x < b.x; });
-    const auto [least_y, most_y] = std::minmax_element(points.begin(), points.end(), [](Point a, Point b) { return a.y < b.y; });
-    centre_ = {0.5 * (least_x->x + most_x->x), 0.5 * (least_y->y + most_y->y)};
-    const double extent_x_m = std::max(most_x->x - least_x->x, 0.01);
-    const double extent_y_m = std::max(most_y->y - least_y->y, 0.01);
-    px_per_m_ = std::min((box.right - box.left) / extent_x_m, (box.bottom - box.top) / extent_y_m);
+    const Box bounds_m = bounds_of(points);
+    centre_ = {0.5 * (bounds_m.left + bounds_m.right), 0.5 * (bounds_m.top + bounds_m.bottom)};
+    constexpr double least_m = 0.01;  // of a camera that stood still
+    px_per_m_ = std::min((box.right - box.left) / std::max(bounds_m.right - bounds_m.left, least_m),
+                         (box.bottom - box.top) / std::max(bounds_m.bottom - bounds_m.top, least_m));
   }
   Point operator()(Point point) const {
     return {0.5 * (box_.left + box_.right) + (point.x - centre_.x) * px_per_m_,
@@ -194,7 +206,7 @@ void draw_scale_bar(Canvas& canvas, Point left_end, double px_per_m) {
 
 void draw_map(Canvas& canvas, const MethodResult& method, const std::vector<Point>& positions_m, const Box& box) {
   canvas.text({box.left, box.top + 10.0}, method.name + ": " + percent(found_fraction(method)) + " found", kTitleHeight, kInk);
-  const MapScale scale(positions_m, {box.left + 10.0, box.top + 40.0, box.right - 10.0, box.bottom - 40.0});
+  const MapScale scale(positions_m, {box.left + 10.0, box.top + kMapHeader, box.right - 10.0, box.bottom - kMapFooter});
   for (std::size_t i = 1; i < positions_m.size(); ++i) {
     if (method.log.tests[i].input_index == method.log.tests[i - 1].input_index)
       canvas.line(scale(positions_m[i - 1]), scale(positions_m[i]), kFaint);
@@ -230,6 +242,13 @@ void draw_map_legend(Canvas& canvas, double y) {
   label("no answer");
 }
 
+/// The height of a map that its trajectory fills.
+double map_height(const std::vector<Point>& positions_m, double map_width) {
+  const Box bounds_m = bounds_of(positions_m);
+  const double aspect = (bounds_m.bottom - bounds_m.top) / std::max(bounds_m.right - bounds_m.left, 1e-6);
+  return std::clamp(aspect * map_width + kMapHeader + kMapFooter, kLeastMapHeight, kMostMapHeight);
+}
+
 }  // namespace
 
 Image<Rgb8> draw_result(const BenchmarkResult& result) {
@@ -238,15 +257,16 @@ Image<Rgb8> draw_result(const BenchmarkResult& result) {
   const int num_columns = std::min(num_maps, kMapsPerRow);
   const int num_rows = (num_maps + num_columns - 1) / num_columns;
   constexpr double legend_height = 40.0;
-  Canvas canvas(kWidth, kChartHeight + static_cast<int>(legend_height) + num_rows * kMapHeight);
+  const std::vector<Point> positions_m = seen_from_above(result.methods.front().log.tests);
+  const double width = (kWidth - kMargin * (num_columns + 1)) / num_columns;
+  const double height = map_height(positions_m, width);
+  Canvas canvas(kWidth, static_cast<int>(kChartHeight + legend_height + num_rows * height));
   draw_chart(canvas, result);
   draw_map_legend(canvas, kChartHeight + 12.0);
-  const std::vector<Point> positions_m = seen_from_above(result.methods.front().log.tests);
-  const double map_width = (kWidth - kMargin * (num_columns + 1)) / num_columns;
   for (int i = 0; i < num_maps; ++i) {
-    const double left = kMargin + (i % num_columns) * (map_width + kMargin);
-    const double top = kChartHeight + legend_height + (i / num_columns) * kMapHeight;
-    draw_map(canvas, result.methods[static_cast<std::size_t>(i)], positions_m, {left, top, left + map_width, top + kMapHeight});
+    const double left = kMargin + (i % num_columns) * (width + kMargin);
+    const double top = kChartHeight + legend_height + (i / num_columns) * height;
+    draw_map(canvas, result.methods[static_cast<std::size_t>(i)], positions_m, {left, top, left + width, top + height});
   }
   return canvas.image();
 }
