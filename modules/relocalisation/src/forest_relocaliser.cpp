@@ -124,7 +124,8 @@ std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) {
     s.image.compute(s.context, frame, s.settings.features.downscale);
   }
   std::vector<PoseEstimate> estimates;
-  for (const PoseCandidate& candidate : s.estimator.estimate(s.context, frame, s.image, s.device_forest.view(), s.modes.view())) {
+  for (const PoseCandidate& candidate :
+       s.estimator.estimate(s.context, frame, s.image, s.device_forest.view(), s.reservoirs.view(), s.modes.view())) {
     SE3 world_from_camera = candidate.scene_from_camera;
     world_from_camera.rotation = nearest_rotation(world_from_camera.rotation);
     world_from_camera.translation += s.reservoirs.origin_world();

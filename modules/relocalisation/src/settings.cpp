@@ -18,7 +18,7 @@ ForestRelocaliserSettings paper_preset() {
   settings.clustering.max_modes = 10;
   settings.clustering.touched_first = false;
   settings.clustering.leaves_per_frame = 256;
-  settings.clustering.pair_budget = 0;
+  settings.clustering.point_budget = 0;
   settings.pose.num_hypotheses = 1024;
   settings.pose.max_rigidity_error_m = 0.025F;
   settings.pose.scan_modes = false;
@@ -27,6 +27,7 @@ ForestRelocaliserSettings paper_preset() {
   settings.pose.round_samples = 500;
   settings.pose.energy_truncation = 1e6F;
   settings.pose.refinement_iterations = 10;
+  settings.pose.alignment_iterations = 0;
   return settings;
 }
 

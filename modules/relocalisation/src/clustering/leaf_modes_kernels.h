@@ -34,7 +34,7 @@ struct ChooseLeaf {
   const std::uint64_t* keys;  ///< sorted by priority; nullptr for round robin
   std::uint32_t cursor;
   std::uint32_t* chosen;
-  std::uint32_t* costs;  ///< point pairs, in thousands, rounded up
+  std::uint32_t* costs;  ///< points to cluster
 
   FOOTHOLD_HD void operator()(std::size_t slot) const {
     const auto num_leaves = static_cast<std::uint32_t>(reservoirs.num_leaves);
@@ -47,8 +47,7 @@ struct ChooseLeaf {
       }
     }
     chosen[slot] = leaf;
-    const auto points = static_cast<std::uint32_t>(leaf < num_leaves ? reservoirs.num_stored(leaf) : 0);
-    costs[slot] = (points * points + 999) / 1000;
+    costs[slot] = static_cast<std::uint32_t>(leaf < num_leaves ? reservoirs.num_stored(leaf) : 0);
   }
 };
 
@@ -66,7 +65,7 @@ struct ClusterLeaf {
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, QuickShiftScratch& scratch, std::size_t slot) const {
     const std::uint32_t leaf = chosen[slot];
-    const bool affordable = settings.pair_budget == 0 || cost_before[slot] < static_cast<std::uint32_t>(settings.pair_budget);
+    const bool affordable = settings.point_budget == 0 || cost_before[slot] < static_cast<std::uint32_t>(settings.point_budget);
     team.sync();
     if (leaf >= static_cast<std::uint32_t>(reservoirs.num_leaves) || !affordable) {
       if (team.lane() == 0) {

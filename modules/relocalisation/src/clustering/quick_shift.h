@@ -16,12 +16,14 @@ static_assert(kMaxReservoir % 16 == 0, "points are processed in vectors");
 
 /// Shared by the lanes of a team: the points of one leaf and what becomes of them.
 struct QuickShiftScratch {
+  float key_mm[kMaxReservoir];  ///< coordinate along the longest axis; rising, once sorted
   float x_mm[kMaxReservoir];
   float y_mm[kMaxReservoir];
   float z_mm[kMaxReservoir];
   float density[kMaxReservoir];
-  std::int32_t parent[kMaxReservoir];  ///< later the root, later the rank of the cluster
-  std::int32_t size[kMaxReservoir];    ///< of the cluster whose root this is; negative once the cluster has a rank
+  std::uint16_t source[kMaxReservoir];  ///< position in the reservoir
+  std::int32_t parent[kMaxReservoir];   ///< later the root, later the rank of the cluster
+  std::int32_t size[kMaxReservoir];     ///< of the cluster whose root this is; negative once the cluster has a rank
 };
 
 /// exp(-t) for t in [0, 4.5], to 0.5 %: the eighth power of a short series, in operations that every device rounds alike.
@@ -53,7 +55,9 @@ struct QuickShift {
 
   /// @return The number of modes, written to `modes` with the largest first; the same on every lane.
   FOOTHOLD_HD int run(Mode* modes) const {
-    load_points();
+    load_keys();
+    team.sync();
+    load_points_in_order();
     team.sync();
     estimate_densities();
     team.sync();
@@ -69,13 +73,55 @@ struct QuickShift {
  private:
   FOOTHOLD_HD int padded() const { return (num_points + kWidth - 1) / kWidth * kWidth; }
 
-  FOOTHOLD_HD void load_points() const {
-    for (int i = team.lane(); i < padded(); i += team.size()) {
-      const ReservoirPoint point = reservoirs.points.at(leaf, i < num_points ? i : 0);
-      s.x_mm[i] = point.x_mm;
-      s.y_mm[i] = point.y_mm;
-      s.z_mm[i] = point.z_mm;
+  /// The coordinate that spreads the points most, as the key to sort them by: neighbours then stand close together.
+  FOOTHOLD_HD void load_keys() const {
+    int low[3] = {32767, 32767, 32767};
+    int high[3] = {-32768, -32768, -32768};
+    for (int i = 0; i < num_points; ++i) {
+      const ReservoirPoint point = reservoirs.point(leaf, i);
+      const int coordinates[3] = {point.x_mm, point.y_mm, point.z_mm};
+      for (int k = 0; k < 3; ++k) {
+        low[k] = coordinates[k] < low[k] ? coordinates[k] : low[k];
+        high[k] = coordinates[k] > high[k] ? coordinates[k] : high[k];
+      }
     }
+    int axis = high[1] - low[1] > high[0] - low[0] ? 1 : 0;
+    if (high[2] - low[2] > high[axis] - low[axis]) axis = 2;
+    for (int i = team.lane(); i < padded(); i += team.size()) {
+      const ReservoirPoint point = reservoirs.point(leaf, i < num_points ? i : num_points - 1);
+      s.density[i] = axis == 0 ? point.x_mm : (axis == 1 ? point.y_mm : point.z_mm);  // unsorted keys, until densities need the space
+    }
+  }
+
+  /// Puts each point at its rank: the number of points with a smaller key, or an equal one and a lower position.
+  FOOTHOLD_HD void load_points_in_order() const {
+    for (int first = team.lane() * kWidth; first < num_points; first += team.size() * kWidth) {
+      std::int32_t rank[kWidth] = {};
+      for (int j = 0; j < num_points; ++j) {
+        for (int w = 0; w < kWidth; ++w) {
+          const float key = s.density[first + w];
+          rank[w] += (s.density[j] < key) | ((s.density[j] == key) & (j < first + w)) ? 1 : 0;
+        }
+      }
+      for (int w = 0; w < kWidth && first + w < num_points; ++w) {
+        const ReservoirPoint point = reservoirs.point(leaf, first + w);
+        s.key_mm[rank[w]] = s.density[first + w];
+        s.x_mm[rank[w]] = point.x_mm;
+        s.y_mm[rank[w]] = point.y_mm;
+        s.z_mm[rank[w]] = point.z_mm;
+        s.source[rank[w]] = static_cast<std::uint16_t>(first + w);
+      }
+    }
+    for (int i = num_points + team.lane(); i < padded(); i += team.size()) s.key_mm[i] = s.x_mm[i] = s.y_mm[i] = s.z_mm[i] = 32767.0F;
+  }
+
+  /// The sorted positions [begin, end) that hold every point within `reach` of the points first ... first + kWidth - 1.
+  FOOTHOLD_HD void window(int first, float reach_mm, int& begin, int& end) const {
+    const int last = first + kWidth < num_points ? first + kWidth - 1 : num_points - 1;
+    begin = first;
+    while (begin > 0 && s.key_mm[begin - 1] > s.key_mm[first] - reach_mm) --begin;
+    end = last + 1;
+    while (end < num_points && s.key_mm[end] < s.key_mm[last] + reach_mm) ++end;
   }
 
   /// Parzen density with a Gaussian kernel cut off at three sigma.
@@ -84,8 +130,11 @@ struct QuickShift {
     const float cutoff_mm2 = 9.0F * sigma_mm * sigma_mm;
     const float scale = 0.5F / (sigma_mm * sigma_mm);
     for (int first = team.lane() * kWidth; first < num_points; first += team.size() * kWidth) {
+      int begin = 0;
+      int end = 0;
+      window(first, 3.0F * sigma_mm, begin, end);
       float sum[kWidth] = {};
-      for (int j = 0; j < num_points; ++j) {
+      for (int j = begin; j < end; ++j) {
         for (int w = 0; w < kWidth; ++w) {
           const float dx = s.x_mm[first + w] - s.x_mm[j];
           const float dy = s.y_mm[first + w] - s.y_mm[j];
@@ -103,13 +152,16 @@ struct QuickShift {
   FOOTHOLD_HD void link_to_parents() const {
     const float tau_mm = settings.tau_m * 1000.0F;
     for (int first = team.lane() * kWidth; first < num_points; first += team.size() * kWidth) {
+      int begin = 0;
+      int end = 0;
+      window(first, tau_mm, begin, end);
       float nearest[kWidth];
       std::int32_t parent[kWidth];
       for (int w = 0; w < kWidth; ++w) {
         nearest[w] = tau_mm * tau_mm;
         parent[w] = first + w;
       }
-      for (int j = 0; j < num_points; ++j) {
+      for (int j = begin; j < end; ++j) {
         for (int w = 0; w < kWidth; ++w) {
           const float dx = s.x_mm[first + w] - s.x_mm[j];
           const float dy = s.y_mm[first + w] - s.y_mm[j];
@@ -170,7 +222,7 @@ struct QuickShift {
       const auto x = static_cast<std::int64_t>(s.x_mm[i]) - root_x;
       const auto y = static_cast<std::int64_t>(s.y_mm[i]) - root_y;
       const auto z = static_cast<std::int64_t>(s.z_mm[i]) - root_z;
-      const std::uint16_t colour = reservoirs.points.at(leaf, i).rgb565;
+      const std::uint16_t colour = reservoirs.point(leaf, s.source[i]).rgb565;
       ++sums.count;
       sums.x += x;
       sums.y += y;

@@ -14,10 +14,13 @@ namespace foothold {
 
 /// One pixel of the image that features are evaluated on: everything a split can ask for, in 8 bytes.
 struct FeaturePixel {
-  std::int16_t depth_mm = 0;  ///< mean of the valid depths, 0 for none
-  std::int16_t r = 0;         ///< mean grey levels
-  std::int16_t g = 0;
-  std::int16_t b = 0;
+  /// Indexed by FeatureChannel: mean of the valid depths [mm], 0 for none; mean red, green and blue [grey levels].
+  std::int16_t channels[4] = {};
+
+  FOOTHOLD_HD int depth_mm() const { return channels[0]; }
+  FOOTHOLD_HD int r() const { return channels[1]; }
+  FOOTHOLD_HD int g() const { return channels[2]; }
+  FOOTHOLD_HD int b() const { return channels[3]; }
 };
 static_assert(sizeof(FeaturePixel) == 8, "loaded as one word");
 

@@ -40,10 +40,10 @@ struct PackFeaturePixel {
     }
     const int num_pixels = downscale * downscale;
     FeaturePixel pixel;
-    pixel.depth_mm = static_cast<std::int16_t>(num_depths > 0 ? (depth_sum_mm + num_depths / 2) / num_depths : 0);
-    pixel.r = static_cast<std::int16_t>((r + num_pixels / 2) / num_pixels);
-    pixel.g = static_cast<std::int16_t>((g + num_pixels / 2) / num_pixels);
-    pixel.b = static_cast<std::int16_t>((b + num_pixels / 2) / num_pixels);
+    pixel.channels[0] = static_cast<std::int16_t>(num_depths > 0 ? (depth_sum_mm + num_depths / 2) / num_depths : 0);
+    pixel.channels[1] = static_cast<std::int16_t>((r + num_pixels / 2) / num_pixels);
+    pixel.channels[2] = static_cast<std::int16_t>((g + num_pixels / 2) / num_pixels);
+    pixel.channels[3] = static_cast<std::int16_t>((b + num_pixels / 2) / num_pixels);
     pixels[i] = pixel;
   }
 
@@ -52,53 +52,59 @@ struct PackFeaturePixel {
 
 FOOTHOLD_HD inline int clamp_index(int i, int size) { return i < 0 ? 0 : (i >= size ? size - 1 : i); }
 
-FOOTHOLD_HD inline int channel_value(const FeaturePixel& pixel, FeatureChannel channel) {
-  switch (channel) {
-    case FeatureChannel::kDepth:
-      return pixel.depth_mm;
-    case FeatureChannel::kRed:
-      return pixel.r;
-    case FeatureChannel::kGreen:
-      return pixel.g;
-    default:
-      return pixel.b;
-  }
-}
-
-/// Eq. 1 and 2: the difference of a channel between a pixel and its partner, which is clamped to the image.
-FOOTHOLD_HD inline int evaluate_feature(const FeatureImageView& image, int u, int v, const FeaturePixel& centre, float px_per_offset,
-                                        const ForestFeature& feature) {
-  const int partner_u = clamp_index(u + static_cast<int>(std::floor(feature.offset_u_px_m * px_per_offset + 0.5F)), image.width);
-  const int partner_v = clamp_index(v + static_cast<int>(std::floor(feature.offset_v_px_m * px_per_offset + 0.5F)), image.height);
-  const FeaturePixel& partner = image.pixels[partner_v * image.width + partner_u];
-  return channel_value(centre, feature.channel) - channel_value(partner, feature.channel);
-}
-
-/// Walks one pixel down one tree; evaluates only the features on its way.
-struct FindLeaf {
+/// Walks a few pixels down one tree, side by side so that their memory accesses overlap; evaluates only the features on their way.
+template <int kWidth>
+struct FindLeaves {
   FeatureImageView image;
   int downscale;
   ForestView forest;
   Span<const SampledPixel> pixels;
   std::uint32_t* leaves;
+  std::size_t groups_per_tree;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
-    const std::size_t tree = i / pixels.size();
-    const SampledPixel pixel = pixels[i % pixels.size()];
-    const int u = clamp_index(pixel.u / downscale, image.width);
-    const int v = clamp_index(pixel.v / downscale, image.height);
-    const FeaturePixel centre = image.pixels[v * image.width + u];
-    if (pixel.depth_m <= 0.0F || centre.depth_mm <= 0) {
-      leaves[i] = static_cast<std::uint32_t>(forest.num_leaves);
-      return;
+    const std::size_t tree = i / groups_per_tree;
+    const std::size_t first = i % groups_per_tree * static_cast<std::size_t>(kWidth);
+    const int num = static_cast<int>(pixels.size() - first < static_cast<std::size_t>(kWidth) ? pixels.size() - first
+                                                                                              : static_cast<std::size_t>(kWidth));
+    int u[kWidth];
+    int v[kWidth];
+    float px_per_offset[kWidth];
+    ForestNode node[kWidth];
+    for (int w = 0; w < num; ++w)
+      start(pixels[first + static_cast<std::size_t>(w)], forest.roots[tree], u[w], v[w], px_per_offset[w], node[w]);
+    bool any_branch = true;
+    while (any_branch) {
+      any_branch = false;
+      for (int w = 0; w < num; ++w) {
+        if (node[w].left_child < 0) continue;
+        const int value = evaluate_feature(u[w], v[w], px_per_offset[w], forest.features[node[w].feature]);
+        node[w] = forest.nodes[node[w].left_child + (value >= node[w].threshold ? 1 : 0)];
+        any_branch = true;
+      }
     }
-    const float px_per_offset = image.offset_scale_px_mm / static_cast<float>(centre.depth_mm);
-    ForestNode node = forest.nodes[forest.roots[tree]];
-    while (node.left_child >= 0) {
-      const int value = evaluate_feature(image, u, v, centre, px_per_offset, forest.features[node.feature]);
-      node = forest.nodes[node.left_child + (value >= node.threshold ? 1 : 0)];
+    for (int w = 0; w < num; ++w) {
+      leaves[tree * pixels.size() + first + static_cast<std::size_t>(w)] = static_cast<std::uint32_t>(~node[w].left_child);
     }
-    leaves[i] = static_cast<std::uint32_t>(~node.left_child);
+  }
+
+ private:
+  /// Puts a pixel at the root; one without depth at an imaginary leaf behind the last.
+  FOOTHOLD_HD void start(const SampledPixel& pixel, std::int32_t root, int& u, int& v, float& px_per_offset, ForestNode& node) const {
+    u = clamp_index(pixel.u / downscale, image.width);
+    v = clamp_index(pixel.v / downscale, image.height);
+    const int depth_mm = image.pixels[v * image.width + u].depth_mm();
+    const bool has_depth = pixel.depth_m > 0.0F && depth_mm > 0;
+    px_per_offset = has_depth ? image.offset_scale_px_mm / static_cast<float>(depth_mm) : 0.0F;
+    node = has_depth ? forest.nodes[root] : ForestNode{~forest.num_leaves, 0, 0};
+  }
+
+  /// Eq. 1 and 2: the difference of a channel between a pixel and its partner, which is clamped to the image.
+  FOOTHOLD_HD int evaluate_feature(int u, int v, float px_per_offset, const ForestFeature& feature) const {
+    const int partner_u = clamp_index(u + static_cast<int>(std::floor(feature.offset_u_px_m * px_per_offset + 0.5F)), image.width);
+    const int partner_v = clamp_index(v + static_cast<int>(std::floor(feature.offset_v_px_m * px_per_offset + 0.5F)), image.height);
+    const auto channel = static_cast<int>(feature.channel);
+    return image.pixels[v * image.width + u].channels[channel] - image.pixels[partner_v * image.width + partner_u].channels[channel];
   }
 };
 
@@ -119,8 +125,10 @@ void FeatureAlgorithms<Executor>::pack(const Context& context, const Frame& fram
 template <class Executor>
 void FeatureAlgorithms<Executor>::find_leaves(const Context& context, const FeatureImageView& image, int downscale,
                                               const ForestView& forest, Span<const SampledPixel> pixels, Span<std::uint32_t> leaves) {
-  Executor(context).for_each(pixels.size() * static_cast<std::size_t>(forest.num_trees),
-                             FindLeaf{image, downscale, forest, pixels, leaves.data()});
+  constexpr std::size_t kWidth = Executor::kVectorWidth;
+  const std::size_t groups_per_tree = (pixels.size() + kWidth - 1) / kWidth;
+  Executor(context).for_each(groups_per_tree * static_cast<std::size_t>(forest.num_trees),
+                             FindLeaves<Executor::kVectorWidth>{image, downscale, forest, pixels, leaves.data(), groups_per_tree});
 }
 
 }  // namespace foothold

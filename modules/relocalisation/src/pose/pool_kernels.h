@@ -85,9 +85,9 @@ struct GatherPixel {
     for (int k = 0; k < 3; ++k) pixel.point_camera[k] = point[k];
     pixel.first_mode = first_modes[i];
     pixel.num_modes = static_cast<std::uint16_t>(mode_counts[i]);
-    pixel.rgb[0] = static_cast<std::uint8_t>(colour.r);
-    pixel.rgb[1] = static_cast<std::uint8_t>(colour.g);
-    pixel.rgb[2] = static_cast<std::uint8_t>(colour.b);
+    pixel.rgb[0] = static_cast<std::uint8_t>(colour.r());
+    pixel.rgb[1] = static_cast<std::uint8_t>(colour.g());
+    pixel.rgb[2] = static_cast<std::uint8_t>(colour.b());
     pixel.reserved = 0;
     pixels[slots[i]] = pixel;
     std::uint32_t next = first_modes[i];

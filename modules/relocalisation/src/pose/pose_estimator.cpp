@@ -27,6 +27,8 @@ PoseEstimator::Buffers::Buffers(MemoryKind memory)
       order(memory),
       sort_buffer(memory),
       nearest(memory),
+      surfaces(memory),
+      support(memory),
       candidates(memory) {}
 
 PoseEstimator::PoseEstimator(const Context& context, const PoseEstimatorSettings& settings)
@@ -42,19 +44,22 @@ PoseEstimator::PoseEstimator(const Context& context, const PoseEstimatorSettings
   buffers_.hypotheses.resize(num_hypotheses);
   buffers_.energies.resize(num_hypotheses);
   buffers_.order.resize(num_hypotheses);
+  buffers_.surfaces.resize(pool_size);
   constexpr std::size_t kLargestGroup = 16;
   const std::size_t refined = (static_cast<std::size_t>(settings.cull_survivors) + kLargestGroup - 1) / kLargestGroup * kLargestGroup;
   buffers_.nearest.resize(refined * pool_size);
   buffers_.candidates.resize(static_cast<std::size_t>(std::min(settings.num_candidates, settings.num_hypotheses)));
+  buffers_.support.resize(buffers_.candidates.size());
 }
 
 std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const Frame& frame, const FeatureImage& image,
-                                                   const ForestView& forest, const LeafModesView& leaf_modes) {
+                                                   const ForestView& forest, const LeafReservoirsView& reservoirs,
+                                                   const LeafModesView& leaf_modes) {
   const auto pool_size = static_cast<std::size_t>(settings_.pool_size);
   const auto num_trees = static_cast<std::size_t>(forest.num_trees);
   buffers_.leaves.resize(pool_size * num_trees);
   buffers_.modes.resize(pool_size * num_trees * static_cast<std::size_t>(leaf_modes.modes.max_blocks * kModeBlockSize));
-  const PoseProblem problem{context, frame, image, forest, leaf_modes, settings_};
+  const PoseProblem problem{context, frame, image, forest, reservoirs, leaf_modes, settings_};
   dispatch(context, [&](auto on) {
     using Algorithms = PoseAlgorithms<typename decltype(on)::Executor>;
     {

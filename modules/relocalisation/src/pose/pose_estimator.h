@@ -45,6 +45,12 @@ static_assert(sizeof(PoseCandidate) == 64, "copied from the device");
 inline constexpr float kInlierDistanceM = 0.05F;
 inline constexpr float kFineInlierDistanceM = 0.025F;
 
+/// A pooled pixel's surface: its averaged camera point and normal; no normal (zero) where the surface is broken or unmeasured.
+struct SurfaceSample {
+  float point_camera[3];   ///< [m]
+  float normal_camera[3];  ///< unit length, towards the camera
+};
+
 /// Estimates the camera of a frame from the modes its pixels reach.
 ///
 /// Determinism: a function of the arguments and settings.seed, whatever the number of threads.
@@ -55,7 +61,7 @@ class PoseEstimator {
 
   /// @return Candidates, best first. Empty if no triple passed the geometric checks: a normal outcome, not an error.
   std::vector<PoseCandidate> estimate(const Context& context, const Frame& frame, const FeatureImage& image, const ForestView& forest,
-                                      const LeafModesView& leaf_modes);
+                                      const LeafReservoirsView& reservoirs, const LeafModesView& leaf_modes);
 
   /// Buffers of the algorithm; see pose_estimator_kernels.h.
   struct Buffers {
@@ -73,6 +79,8 @@ class PoseEstimator {
     Array<std::uint64_t> order;  ///< sort keys: energy above, hypothesis below
     Array<std::uint64_t> sort_buffer;
     Array<std::uint16_t> nearest;  ///< hypotheses x samples: position of the nearest mode
+    Array<SurfaceSample> surfaces;
+    Array<float> support;  ///< per candidate
     Array<PoseCandidate> candidates;
   };
 

@@ -3,6 +3,7 @@
 /// The algorithm of pose_estimator.h, for both devices. Its steps are in pool_, hypothesis_, score_ and refine_kernels.h.
 #pragma once
 
+#include "pose/align_kernels.h"
 #include "pose/hypothesis_kernels.h"
 #include "pose/pool_kernels.h"
 #include "pose/pose_estimator.h"
@@ -17,6 +18,7 @@ struct PoseProblem {
   const Frame& frame;
   const FeatureImage& image;
   ForestView forest;
+  LeafReservoirsView reservoirs;
   LeafModesView leaf_modes;
   const PoseEstimatorSettings& settings;
 };
@@ -134,12 +136,31 @@ void PoseAlgorithms<Executor>::preempt(const PoseProblem& problem, PoseEstimator
   }
 }
 
+/// Aligns the best candidates with the remembered points. The pool's leaves are those of fill_pool().
+template <class Executor>
+void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffers, const HypothesisSet<Executor>& set) {
+  constexpr int kNeighbourDistancePx = 8;  // of the full frame, each way
+  const PoseEstimatorSettings& settings = problem.settings;
+  const int downscale = problem.image.downscale();
+  const int reach = kNeighbourDistancePx / downscale > 0 ? kNeighbourDistancePx / downscale : 1;
+  const auto num_samples = settings.alignment_samples < settings.pool_size ? settings.alignment_samples : settings.pool_size;
+  const Intrinsics intrinsics = problem.frame.calibration.depth.scaled(1.0F / static_cast<float>(downscale));
+  set.executor().for_each(static_cast<std::size_t>(num_samples), EstimateSurface{problem.image.view(), intrinsics, downscale, reach,
+                                                                                 buffers.sampled.data(), buffers.surfaces.data()});
+  set.executor().template for_each_team<NoScratch>(
+      1, AlignWithPoints<Executor>{problem.reservoirs, problem.forest.num_trees, static_cast<std::size_t>(settings.pool_size),
+                                   buffers.leaves.data(), buffers.surfaces.data(), num_samples, settings.alignment_iterations,
+                                   settings.first_alignment_radius_m, settings.last_alignment_radius_m, buffers.order.data(),
+                                   buffers.hypotheses.data(), buffers.support.data()});
+}
+
 template <class Executor>
 void PoseAlgorithms<Executor>::finish(const PoseProblem& problem, PoseEstimator::Buffers& buffers) {
   constexpr int kFinalRounds = 3;  // modes are assigned anew before each
   const PoseEstimatorSettings& settings = problem.settings;
   const HypothesisSet<Executor> set(problem, buffers);
   for (int round = 0; round < kFinalRounds; ++round) set.refine(1, settings.pool_size, settings.final_iterations);
+  if (settings.alignment_iterations > 0) align_with_points(problem, buffers, set);
   const std::size_t num_candidates = buffers.candidates.size();
   set.executor().template for_each_team<NoScratch>(
       set.num_groups(num_candidates),

@@ -23,7 +23,7 @@ LeafReservoirs::LeafReservoirs(const Context& context, int num_leaves, const Res
     : settings_(settings),
       seed_(seed),
       num_leaves_(num_leaves),
-      points_(context.memory(), num_leaves, settings.capacity),
+      blocks_(context.memory(), num_leaves, reservoir_blocks_for(settings.capacity)),
       num_seen_(context.memory(), static_cast<std::size_t>(num_leaves)),
       num_changed_(context.memory(), static_cast<std::size_t>(num_leaves)),
       keys_(context.memory()),
@@ -35,16 +35,16 @@ LeafReservoirs::LeafReservoirs(const Context& context, int num_leaves, const Res
 
 void LeafReservoirs::clear() {
   num_frames_ = 0;
-  points_.clear();
+  blocks_.clear();
   num_seen_.clear_to_zero();
   num_changed_.clear_to_zero();
 }
 
 LeafReservoirsView LeafReservoirs::view() {
-  return {points_.view(), num_seen_.data(), num_changed_.data(), num_leaves_, settings_.capacity, derive_seed(seed_, kReplacementStream)};
+  return {blocks_.view(), num_seen_.data(), num_changed_.data(), num_leaves_, settings_.capacity, derive_seed(seed_, kReplacementStream)};
 }
 
-std::size_t LeafReservoirs::state_bytes() const { return points_.state_bytes() + num_seen_.num_bytes() + num_changed_.num_bytes(); }
+std::size_t LeafReservoirs::state_bytes() const { return blocks_.state_bytes() + num_seen_.num_bytes() + num_changed_.num_bytes(); }
 
 void LeafReservoirs::sample(const Context& context, const Frame& frame, const FeatureImage& image, const SE3& world_from_camera,
                             TrainingExamples& examples) {
@@ -77,7 +77,7 @@ void LeafReservoirs::insert(const Context& context, const TrainingExamples& exam
   first_new_block_.resize(num_keys + 1);
   const InsertionBuffers buffers{keys_, sort_buffer_, new_blocks_, first_new_block_};
   dispatch(context, [&](auto on) {
-    ReservoirAlgorithms<typename decltype(on)::Executor>::insert(context, view(), examples, buffers, points_.num_used_blocks());
+    ReservoirAlgorithms<typename decltype(on)::Executor>::insert(context, view(), examples, buffers, blocks_.num_used_blocks());
   });
 }
 
@@ -88,8 +88,8 @@ void LeafReservoirs::save(std::ostream& stream) const {
   write_value(stream, origin_world_.z());
   write_array(stream, num_seen_.to_host());
   write_array(stream, num_changed_.to_host());
-  write_array(stream, points_.blocks_to_host());
-  write_array(stream, points_.used_pool_to_host());
+  write_array(stream, blocks_.blocks_to_host());
+  write_array(stream, blocks_.used_pool_to_host());
 }
 
 void LeafReservoirs::load(std::istream& stream) {
@@ -98,16 +98,16 @@ void LeafReservoirs::load(std::istream& stream) {
   for (int i = 0; i < 3; ++i) origin[i] = read_value<float>(stream, "origin");
   if (!origin.allFinite()) throw FileError("the saved scene has an origin that is not finite");
   const auto num_leaves = static_cast<std::uint64_t>(num_leaves_);
-  const int max_blocks = decltype(points_)::View::blocks_for(settings_.capacity);
+  const int max_blocks = reservoir_blocks_for(settings_.capacity);
   const std::uint64_t num_blocks = num_leaves * static_cast<std::uint64_t>(max_blocks);
   const auto num_seen = read_array<std::uint32_t>(stream, "reservoir counts", num_leaves, num_leaves);
   const auto num_changed = read_array<std::uint32_t>(stream, "change counts", num_leaves, num_leaves);
   const auto blocks = read_array<std::int32_t>(stream, "block references", num_blocks, num_blocks);
-  const auto pool = read_array<ReservoirPoint>(stream, "reservoir points", 0, num_blocks * kReservoirBlockSize);
-  const auto num_used = static_cast<std::int64_t>(pool.size() / kReservoirBlockSize);
+  const auto pool = read_array<ReservoirBlock>(stream, "reservoir blocks", 0, num_blocks);
+  const auto num_used = static_cast<std::int64_t>(pool.size());
   for (std::uint64_t leaf = 0; leaf < num_leaves; ++leaf) {
     const int stored = static_cast<int>(std::min<std::uint64_t>(num_seen[leaf], static_cast<std::uint64_t>(settings_.capacity)));
-    for (int k = 0; k < decltype(points_)::View::blocks_for(stored); ++k) {
+    for (int k = 0; k < reservoir_blocks_for(stored); ++k) {
       const std::int32_t block = blocks[leaf * static_cast<std::uint64_t>(max_blocks) + static_cast<std::uint64_t>(k)];
       if (block < 0 || block >= num_used)
         throw FileError("the saved scene refers to reservoir block " + std::to_string(block) + ", there are " + std::to_string(num_used));
@@ -117,7 +117,7 @@ void LeafReservoirs::load(std::istream& stream) {
   origin_world_ = origin;
   num_seen_.assign(Span<const std::uint32_t>(num_seen));
   num_changed_.assign(Span<const std::uint32_t>(num_changed));
-  points_.restore(Span<const ReservoirPoint>(pool), Span<const std::int32_t>(blocks));
+  blocks_.restore(Span<const ReservoirBlock>(pool), Span<const std::int32_t>(blocks));
 }
 
 }  // namespace foothold

@@ -28,15 +28,40 @@ static_assert(sizeof(ReservoirPoint) == 8, "loaded as one word");
 
 inline constexpr int kReservoirBlockSize = 16;
 
+/// Points of one leaf, coordinate by coordinate, so that a vector register takes a whole block.
+struct ReservoirBlock {
+  std::int16_t x_mm[kReservoirBlockSize];
+  std::int16_t y_mm[kReservoirBlockSize];
+  std::int16_t z_mm[kReservoirBlockSize];
+  std::uint16_t rgb565[kReservoirBlockSize];
+};
+static_assert(sizeof(ReservoirBlock) == 128, "two cache lines");
+
+FOOTHOLD_HD constexpr int reservoir_blocks_for(int num_points) { return (num_points + kReservoirBlockSize - 1) / kReservoirBlockSize; }
+
 /// What kernels see of the reservoirs.
 struct LeafReservoirsView {
-  BlockListsView<ReservoirPoint, kReservoirBlockSize> points;
+  BlockListsView<ReservoirBlock, 1> blocks;
   std::uint32_t* num_seen = nullptr;     ///< per leaf: points offered so far
   std::uint32_t* num_changed = nullptr;  ///< per leaf: points written since the leaf was last clustered
   int num_leaves = 0;
   int capacity = 0;
   std::uint64_t seed = 0;
 
+  FOOTHOLD_HD ReservoirBlock& block_of(std::uint32_t leaf, int position) const { return blocks.at(leaf, position / kReservoirBlockSize); }
+  FOOTHOLD_HD ReservoirPoint point(std::uint32_t leaf, int position) const {
+    const ReservoirBlock& block = block_of(leaf, position);
+    const int i = position % kReservoirBlockSize;
+    return {block.x_mm[i], block.y_mm[i], block.z_mm[i], block.rgb565[i]};
+  }
+  FOOTHOLD_HD void set_point(std::uint32_t leaf, int position, const ReservoirPoint& point) const {
+    ReservoirBlock& block = block_of(leaf, position);
+    const int i = position % kReservoirBlockSize;
+    block.x_mm[i] = point.x_mm;
+    block.y_mm[i] = point.y_mm;
+    block.z_mm[i] = point.z_mm;
+    block.rgb565[i] = point.rgb565;
+  }
   FOOTHOLD_HD int num_stored(std::uint32_t leaf) const {
     return num_seen[leaf] < static_cast<std::uint32_t>(capacity) ? static_cast<int>(num_seen[leaf]) : capacity;
   }
@@ -78,7 +103,7 @@ class LeafReservoirs {
   int num_leaves_;
   std::uint64_t num_frames_ = 0;
   Eigen::Vector3f origin_world_ = Eigen::Vector3f::Zero();
-  BlockLists<ReservoirPoint, kReservoirBlockSize> points_;
+  BlockLists<ReservoirBlock, 1> blocks_;
   Array<std::uint32_t> num_seen_;
   Array<std::uint32_t> num_changed_;
   // Scratch of insert().

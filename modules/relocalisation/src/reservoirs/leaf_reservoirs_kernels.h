@@ -20,7 +20,7 @@ FOOTHOLD_HD inline Eigen::Vector3f transform_point(const SE3& target_from_source
 }
 
 FOOTHOLD_HD inline std::uint16_t pack_rgb565(const FeaturePixel& pixel) {
-  return static_cast<std::uint16_t>(((pixel.r >> 3) << 11) | ((pixel.g >> 2) << 5) | (pixel.b >> 3));
+  return static_cast<std::uint16_t>(((pixel.r() >> 3) << 11) | ((pixel.g() >> 2) << 5) | (pixel.b() >> 3));
 }
 FOOTHOLD_HD inline int red_of(std::uint16_t rgb565) { return ((rgb565 >> 11) & 31) * 255 / 31; }
 FOOTHOLD_HD inline int green_of(std::uint16_t rgb565) { return ((rgb565 >> 5) & 63) * 255 / 63; }
@@ -101,7 +101,7 @@ struct CountNewBlocks {
     const int stored = reservoirs.num_stored(leaf);
     const std::size_t wanted = static_cast<std::size_t>(stored) + (end_of_run(keys, i) - i);
     const int after = wanted < static_cast<std::size_t>(reservoirs.capacity) ? static_cast<int>(wanted) : reservoirs.capacity;
-    new_blocks[i] = static_cast<std::uint32_t>(reservoirs.points.blocks_for(after) - reservoirs.points.blocks_for(stored));
+    new_blocks[i] = static_cast<std::uint32_t>(reservoir_blocks_for(after) - reservoir_blocks_for(stored));
   }
 };
 
@@ -117,7 +117,7 @@ struct InsertRun {
   FOOTHOLD_HD void operator()(std::size_t i) const {
     if (!starts_run(keys, i, reservoirs.num_leaves)) return;
     const std::uint32_t leaf = leaf_of(keys[i]);
-    int owned = reservoirs.points.blocks_for(reservoirs.num_stored(leaf));
+    int owned = reservoir_blocks_for(reservoirs.num_stored(leaf));
     std::uint32_t next_block = *num_used_blocks + first_new_block[i];
     std::uint32_t seen = reservoirs.num_seen[leaf];
     std::uint32_t written = 0;
@@ -127,10 +127,10 @@ struct InsertRun {
       if (seen >= static_cast<std::uint32_t>(reservoirs.capacity)) {
         position = static_cast<int>(Random(leaf_seed, seen).below(seen + 1));
         if (position >= reservoirs.capacity) continue;
-      } else if (reservoirs.points.blocks_for(position + 1) > owned) {
-        reservoirs.points.own(leaf, owned++, next_block++);
+      } else if (reservoir_blocks_for(position + 1) > owned) {
+        reservoirs.blocks.own(leaf, owned++, next_block++);
       }
-      reservoirs.points.at(leaf, position) = points[(keys[k] & 0xffffffffU) % num_examples];
+      reservoirs.set_point(leaf, position, points[(keys[k] & 0xffffffffU) % num_examples]);
       ++written;
     }
     reservoirs.num_seen[leaf] = seen;

@@ -44,7 +44,7 @@ struct ClusteringSettings {
   float covariance_floor_m = 0.02F;  ///< (T) noise-free planes are singular without it
   bool touched_first = true;         ///< (P) false = round robin, (T) true
   int leaves_per_frame = 256;        ///< (P)
-  int pair_budget = 0;               ///< (P) 0 = none
+  int point_budget = 0;              ///< (P) 0 = none
 
   template <class Visitor>
   static void fields(Visitor& v) {
@@ -56,30 +56,34 @@ struct ClusteringSettings {
       Range{0.0001, 1});
     v(&ClusteringSettings::touched_first, "touched_first", "Cluster the leaves whose contents changed most, instead of round robin.");
     v(&ClusteringSettings::leaves_per_frame, "leaves_per_frame", "Leaves clustered in a frame at most.", Range{1, 65536});
-    v(&ClusteringSettings::pair_budget, "pair_budget", "Point pairs compared in a frame at most, in thousands; 0 for no limit.",
-      Range{0, 1e6});
+    v(&ClusteringSettings::point_budget, "point_budget",
+      "Points clustered in a frame, beyond which no further leaf is begun; 0 for no limit.", Range{0, 1e8});
   }
 };
 
 /// How camera-pose hypotheses are drawn, culled and refined. Reference: [Cavallari2017] Sec. 2.2.3.
 struct PoseEstimatorSettings {
-  int pool_size = 4000;                ///< (T) the paper evaluates every pixel
-  int num_hypotheses = 1024;           ///< (P)
-  int max_draws = 6000;                ///< (R)
-  int max_colour_difference = 30;      ///< (R)
-  float min_triple_spread_m = 0.3F;    ///< (P)
-  float max_rigidity_error_m = 0.05F;  ///< (R) 0.025, (T) 0.05
-  bool scan_modes = true;              ///< (P) false, (T) true
-  int cull_samples = 500;              ///< (P)
-  int first_cull_samples = 100;        ///< (P) none = cull_samples, (T) 100
-  int first_cull_survivors = 256;      ///< (T)
-  int cull_survivors = 64;             ///< (P)
-  int round_samples = 250;             ///< (P) 500, (T) 250
-  float energy_truncation = 4.0F;      ///< (P) none, (T) 4
-  float refinement_radius_m = 0.2F;    ///< (R)
-  int refinement_iterations = 4;       ///< (T)
-  int final_iterations = 10;           ///< (T)
-  int num_candidates = 16;             ///< (P) the supplement's last 16
+  int pool_size = 4000;                    ///< (T) the paper evaluates every pixel
+  int num_hypotheses = 1024;               ///< (P)
+  int max_draws = 6000;                    ///< (R)
+  int max_colour_difference = 30;          ///< (R)
+  float min_triple_spread_m = 0.3F;        ///< (P)
+  float max_rigidity_error_m = 0.05F;      ///< (R) 0.025, (T) 0.05
+  bool scan_modes = true;                  ///< (P) false, (T) true
+  int cull_samples = 500;                  ///< (P)
+  int first_cull_samples = 100;            ///< (P) none = cull_samples, (T) 100
+  int first_cull_survivors = 256;          ///< (T)
+  int cull_survivors = 64;                 ///< (P)
+  int round_samples = 250;                 ///< (P) 500, (T) 250
+  float energy_truncation = 4.0F;          ///< (P) none, (T) 4
+  float refinement_radius_m = 0.2F;        ///< (R)
+  int refinement_iterations = 4;           ///< (T)
+  int final_iterations = 10;               ///< (T)
+  int alignment_iterations = 6;            ///< (P) 0, (T)
+  int alignment_samples = 1500;            ///< (T)
+  float first_alignment_radius_m = 0.06F;  ///< (T)
+  float last_alignment_radius_m = 0.04F;   ///< (T)
+  int num_candidates = 16;                 ///< (P) the supplement's last 16
   std::uint64_t seed = 42;
 
   template <class Visitor>
@@ -106,6 +110,11 @@ struct PoseEstimatorSettings {
       Range{0.001, 10});
     v(&S::refinement_iterations, "refinement_iterations", "Levenberg-Marquardt steps per round.", Range{0, 100});
     v(&S::final_iterations, "final_iterations", "Levenberg-Marquardt steps of the final candidates, on the whole pool.", Range{0, 100});
+    v(&S::alignment_iterations, "alignment_iterations", "Steps that align the best pose with the points that leaves remember; 0 for none.",
+      Range{0, 100});
+    v(&S::alignment_samples, "alignment_samples", "Samples of this alignment.", Range{16, 65536});
+    v(&S::first_alignment_radius_m, "first_alignment_radius_m", "Reach of a sample in its first step.", Range{0.001, 1});
+    v(&S::last_alignment_radius_m, "last_alignment_radius_m", "Reach of a sample in its last step.", Range{0.001, 1});
     v(&S::num_candidates, "num_candidates", "Candidates returned, best first.", Range{1, 64});
     v(&S::seed, "seed", "Seed of every random choice of a relocalisation.", Range{0, 1.8446744073709552e19});
   }
