@@ -194,6 +194,21 @@ TEST_CASE("OpenNISource: warns if nothing can register depth and colour") {
   CHECK(max_depth_error_m(next_frame(source)) < kHalfMillimetre_m);
 }
 
+TEST_CASE("OpenNISource: a camera without a colour sensor delivers grey frames, after a warning") {
+  const VirtualRig rig{{"FEATURES", "no-colour"}};
+  std::vector<std::string> messages;
+  OpenNISource source(rig_settings(), {}, [&](LogLevel, const std::string& message) { messages.push_back(message); });
+  REQUIRE(messages.size() == 1);
+  CHECK(messages.front().find("no colour sensor") != std::string::npos);
+  for (int i = 0; i < 5; ++i) {
+    const RgbdFrame frame = next_frame(source);
+    CHECK(describe_frame_error(frame.view()).empty());
+    CHECK(frame.depth(10, 10) > 0.0F);
+    CHECK(frame.colour(10, 10).r == 128);
+    CHECK(frame.calibration.colour.fx == frame.calibration.depth.fx);
+  }
+}
+
 TEST_CASE("OpenNISource: locks exposure and white balance without complaint") {
   const VirtualRig rig;
   OpenNISettings settings = rig_settings();

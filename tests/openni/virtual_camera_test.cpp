@@ -63,6 +63,7 @@ TEST_CASE("read_script: without variables a camera plays at 30 Hz") {
   CHECK(script.delays.empty());
   CHECK(script.lock_file.empty());
   CHECK(script.has_depth);
+  CHECK(script.has_colour);
   CHECK(script.registers);
   CHECK(script.synchronises);
   CHECK_FALSE(script.fine_depth);
@@ -73,7 +74,7 @@ TEST_CASE("read_script: reads every variable") {
                                    {"FOOTHOLD_VIRTUAL_CAMERA_FPS", "12.5"},
                                    {"FOOTHOLD_VIRTUAL_CAMERA_AT_END", "pingpong"},
                                    {"FOOTHOLD_VIRTUAL_CAMERA_DELAYS", "open=1.5, 2.close=3"},
-                                   {"FOOTHOLD_VIRTUAL_CAMERA_FEATURES", "no-depth,no-registration,no-sync,fine-depth"}});
+                                   {"FOOTHOLD_VIRTUAL_CAMERA_FEATURES", "no-depth,no-colour,no-registration,no-sync,fine-depth"}});
   CHECK(script.sequences == std::vector<std::string>{"a", "b"});
   CHECK(script.frames_per_second == 12.5);
   CHECK(script.at_end == EndOfSequence::kPingPong);
@@ -81,6 +82,7 @@ TEST_CASE("read_script: reads every variable") {
   CHECK(script.delays[0].open_s == 1.5);
   CHECK(script.delays[2].close_s == 3.0);
   CHECK_FALSE(script.has_depth);
+  CHECK_FALSE(script.has_colour);
   CHECK_FALSE(script.registers);
   CHECK_FALSE(script.synchronises);
   CHECK(script.fine_depth);
@@ -95,7 +97,7 @@ TEST_CASE("read_script: names the variable that is wrong") {
   CHECK_THAT(message_of<InvalidSettings>([] { script_of({{"FOOTHOLD_VIRTUAL_CAMERA_AT_END", "stop"}}); }), Contains("_AT_END"));
   CHECK_THAT(message_of<InvalidSettings>([] { script_of({{"FOOTHOLD_VIRTUAL_CAMERA_DELAYS", "open"}}); }), Contains("_DELAYS"));
   CHECK_THAT(message_of<InvalidSettings>([] { script_of({{"FOOTHOLD_VIRTUAL_CAMERA_DELAYS", "1234.open=3"}}); }), Contains("_DELAYS"));
-  CHECK_THAT(message_of<InvalidSettings>([] { script_of({{"FOOTHOLD_VIRTUAL_CAMERA_FEATURES", "no-colour"}}); }), Contains("_FEATURES"));
+  CHECK_THAT(message_of<InvalidSettings>([] { script_of({{"FOOTHOLD_VIRTUAL_CAMERA_FEATURES", "no-color"}}); }), Contains("_FEATURES"));
 }
 
 TEST_CASE("frame_at: what the camera shows at and after the end") {

@@ -15,6 +15,8 @@
 namespace foothold::capture {
 namespace {
 
+constexpr Rgb8 kGrey{128, 128, 128};  ///< what cameras without a colour sensor see
+
 /// The pinhole camera with a field of view, its principal point in the middle of the image.
 Intrinsics intrinsics_from_field_of_view(const openni::VideoStream& stream, const OpenNISettings& settings, const std::string& sensor) {
   const float horizontal_rad = stream.getHorizontalFieldOfView();
@@ -56,7 +58,12 @@ CameraDevice::CameraDevice(const std::string& uri, const Options& options)
   open(uri);
   try {
     create_stream(depth_, openni::SENSOR_DEPTH, {openni::PIXEL_FORMAT_DEPTH_1_MM, openni::PIXEL_FORMAT_DEPTH_100_UM});
-    create_stream(colour_, openni::SENSOR_COLOR, {openni::PIXEL_FORMAT_RGB888});
+    if (device_.hasSensor(openni::SENSOR_COLOR)) {
+      create_stream(colour_, openni::SENSOR_COLOR, {openni::PIXEL_FORMAT_RGB888});
+    } else {
+      options_.warn(no_colour_message(uri));
+      sensor_calibration_.colour = sensor_calibration_.depth;
+    }
     register_images();
     start();
   } catch (...) {
@@ -89,7 +96,7 @@ void CameraDevice::create_stream(openni::VideoStream& stream, openni::SensorType
   options_.is_doing("setting up the " + name + " stream");
   const OpenNISettings& settings = options_.settings;
   const openni::SensorInfo* sensor_info = device_.getSensorInfo(sensor);
-  if (sensor_info == nullptr) throw DeviceError(missing_sensor_message(info_.uri, name));
+  if (sensor_info == nullptr) throw DeviceError(no_depth_message(info_.uri));
 
   const openni::Array<openni::VideoMode>& modes = sensor_info->getSupportedVideoModes();
   const openni::VideoMode* chosen = nullptr;
@@ -118,6 +125,8 @@ void CameraDevice::create_stream(openni::VideoStream& stream, openni::SensorType
 void CameraDevice::register_images() {
   options_.is_doing("switching registration");
   const std::string& wanted = options_.settings.registration;
+  calibration_ = sensor_calibration_;
+  if (!has_colour()) return;
   if (options_.calibration.has_value()) sensor_calibration_.depth_from_colour = options_.calibration->depth_from_colour;
   if (wanted == "auto" || wanted == "device") {
     const auto mode = openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
@@ -139,15 +148,16 @@ void CameraDevice::register_images() {
 void CameraDevice::start() {
   options_.is_doing("starting the streams");
   depth_.addNewFrameListener(&depth_listener_);
-  colour_.addNewFrameListener(&colour_listener_);
+  if (has_colour()) colour_.addNewFrameListener(&colour_listener_);
   is_listening_ = true;
   for (openni::VideoStream* stream : {&depth_, &colour_}) {
-    if (stream->start() == openni::STATUS_OK) continue;
+    if (!stream->isValid() || stream->start() == openni::STATUS_OK) continue;
     throw DeviceError("camera '" + info_.uri + "': its " + (stream == &depth_ ? "depth" : "colour") +
                       " stream does not start (OpenNI2 says: " + openni_error() +
                       "). The USB may lack bandwidth: use a port of the computer itself, without other cameras on the same hub.");
   }
-  if (options_.synchronise) device_.setDepthColorSyncEnabled(true);  // pairing by time does without, where the camera cannot do it
+  if (options_.synchronise && has_colour())
+    device_.setDepthColorSyncEnabled(true);  // pairing by time does without, where the camera cannot do it
 }
 
 void CameraDevice::close() {
@@ -175,11 +185,19 @@ std::optional<openni::VideoFrameRef> CameraDevice::take(openni::VideoStream& str
 }
 
 bool CameraDevice::convert(const openni::VideoFrameRef& depth, const openni::VideoFrameRef& colour, RgbdFrame& frame) const {
-  if (!holds<openni::DepthPixel>(depth, options_.settings) || !holds<openni::RGB888Pixel>(colour, options_.settings)) return false;
+  const OpenNISettings& settings = options_.settings;
+  if (!holds<openni::DepthPixel>(depth, settings)) return false;
   const float unit_m = depth.getVideoMode().getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM ? 1e-4F : 1e-3F;
   copy_image<openni::DepthPixel>(depth, depth_mirrored_, frame.depth,
                                  [unit_m](openni::DepthPixel z) { return unit_m * static_cast<float>(z); });
-  copy_image<openni::RGB888Pixel>(colour, colour_mirrored_, frame.colour, [](const openni::RGB888Pixel& c) { return Rgb8{c.r, c.g, c.b}; });
+  if (has_colour()) {
+    if (!holds<openni::RGB888Pixel>(colour, settings)) return false;
+    copy_image<openni::RGB888Pixel>(colour, colour_mirrored_, frame.colour, [](const openni::RGB888Pixel& c) {
+      return Rgb8{c.r, c.g, c.b};
+    });
+  } else {
+    frame.colour = Image<Rgb8>(settings.width, settings.height, kGrey);
+  }
   if (by_software_) {
     Image<float> registered;
     register_depth_to_colour(frame.depth, sensor_calibration_, registered);
@@ -193,7 +211,7 @@ void CameraDevice::lock_exposure() {
   const OpenNISettings& settings = options_.settings;
   if (!settings.lock_exposure && !settings.lock_white_balance) return;
   options_.is_doing("locking exposure and white balance");
-  openni::CameraSettings* camera = colour_.getCameraSettings();
+  openni::CameraSettings* camera = has_colour() ? colour_.getCameraSettings() : nullptr;
   if (settings.lock_exposure && (camera == nullptr || camera->setAutoExposureEnabled(false) != openni::STATUS_OK)) {
     options_.warn("camera '" + info_.uri + "' cannot lock its exposure");
   }

@@ -37,13 +37,16 @@ class CameraDevice {
   const OpenNIDeviceInfo& info() const { return info_; }
   /// The calibration of the frames that convert() makes.
   const RgbdCalibration& calibration() const { return calibration_; }
-  bool is_registered() const { return by_device_ || by_software_; }
+  bool is_registered() const { return by_device_ || by_software_ || !has_colour(); }
+  /// False for cameras that have no colour sensor, whose frames are grey.
+  bool has_colour() const { return colour_.isValid(); }
 
   /// The newest depth or colour image if it has not been taken yet; never waits.
   std::optional<openni::VideoFrameRef> take_depth() { return take(depth_, depth_arrived_); }
   std::optional<openni::VideoFrameRef> take_colour() { return take(colour_, colour_arrived_); }
 
   /// Fills a frame's images and calibration. @return False if the images are not of the mode that was asked for.
+  /// @pre The colour image is valid, unless the camera has no colour sensor.
   bool convert(const openni::VideoFrameRef& depth, const openni::VideoFrameRef& colour, RgbdFrame& frame) const;
 
   /// Stops automatic exposure and white balance where the settings want it.

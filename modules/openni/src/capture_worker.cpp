@@ -189,9 +189,12 @@ void Worker::collect(CameraDevice& camera, Pairer& pairer) {
   const std::int64_t dropped_before = pairer.num_dropped();
   if (const auto depth = camera.take_depth()) {
     ++num_depth_;
-    if (const auto pair = pairer.add_depth(time_s(*depth), *depth)) publish(camera, *pair);
+    if (!camera.has_colour()) {
+      publish(camera, {*depth, openni::VideoFrameRef(), time_s(*depth)});
+    } else if (const auto pair = pairer.add_depth(time_s(*depth), *depth))
+      publish(camera, *pair);
   }
-  if (const auto colour = camera.take_colour()) {
+  if (const auto colour = camera.has_colour() ? camera.take_colour() : std::nullopt) {
     ++num_colour_;
     if (const auto pair = pairer.add_colour(time_s(*colour), *colour)) publish(camera, *pair);
   }

@@ -106,8 +106,12 @@ std::string unknown_mode_message(const std::string& sensor, const OpenNISettings
   return text + ". Choose width, height and fps that both sensors offer, depth in 1 mm or 0.1 mm, colour in RGB.";
 }
 
-std::string missing_sensor_message(const std::string& uri, const std::string& sensor) {
-  return "camera '" + uri + "' has no " + sensor + " sensor, and Foothold needs depth and colour. Choose another camera. " + kSeeDocs;
+std::string no_depth_message(const std::string& uri) {
+  return "camera '" + uri + "' has no depth sensor. Choose another camera. " + kSeeDocs;
+}
+
+std::string no_colour_message(const std::string& uri) {
+  return "camera '" + uri + "' has no colour sensor: its frames are grey, and finding the camera again rests on depth alone";
 }
 
 std::string not_answering_message(const std::string& activity, int time_ms) {

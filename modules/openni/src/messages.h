@@ -27,8 +27,11 @@ std::string cannot_open_message(const std::string& uri, const std::string& node,
 /// A sensor does not offer the mode that was asked for.
 std::string unknown_mode_message(const std::string& sensor, const OpenNISettings& wanted, const std::vector<OpenNIVideoMode>& modes);
 
-/// A camera without one of the two sensors. @param sensor "depth" or "colour"
-std::string missing_sensor_message(const std::string& uri, const std::string& sensor);
+/// A camera without a depth sensor is of no use.
+std::string no_depth_message(const std::string& uri);
+
+/// A camera without a colour sensor is, with a warning.
+std::string no_colour_message(const std::string& uri);
 
 /// A call into a driver did not return in time.
 std::string not_answering_message(const std::string& activity, int time_ms);

@@ -217,7 +217,7 @@ class VirtualDriver : public oni::driver::DriverBase {
     std::snprintf(camera->info.vendor, sizeof(camera->info.vendor), "Foothold");
     std::snprintf(camera->info.name, sizeof(camera->info.name), "Virtual camera (%s)", sequence->name().c_str());
     if (script.has_depth) camera->sensors.push_back(describe_sensor(Sensor::kDepth, first, script));
-    camera->sensors.push_back(describe_sensor(Sensor::kColour, first, script));
+    if (script.has_colour) camera->sensors.push_back(describe_sensor(Sensor::kColour, first, script));
     camera->registers = script.registers && is_registered(first.calibration);
     const OniDeviceInfo* info = &camera->info;
     camera->player =

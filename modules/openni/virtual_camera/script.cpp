@@ -115,6 +115,8 @@ void parse_features(const std::string& text, Script& script) {
   for (const std::string& part : split(text, ',')) {
     if (part == "no-depth") {
       script.has_depth = false;
+    } else if (part == "no-colour") {
+      script.has_colour = false;
     } else if (part == "no-registration") {
       script.registers = false;
     } else if (part == "no-sync") {
@@ -123,7 +125,7 @@ void parse_features(const std::string& text, Script& script) {
       script.fine_depth = true;
     } else {
       throw InvalidSettings("FOOTHOLD_VIRTUAL_CAMERA_FEATURES: got '" + part +
-                            "', expected no-depth, no-registration, no-sync or fine-depth");
+                            "', expected no-depth, no-colour, no-registration, no-sync or fine-depth");
     }
   }
 }

@@ -53,10 +53,11 @@ struct Script {
   std::vector<Event> events;   ///< of the first camera; the others play undisturbed
   std::vector<Delays> delays;  ///< by camera; those beyond have none
   std::string lock_file;       ///< a device cannot be opened while another process holds this file's lock; empty: no lock
-  bool has_depth = true;       ///< false: a webcam
-  bool registers = true;       ///< offers depth-to-colour registration, if the sequence's images are registered
-  bool synchronises = true;    ///< offers depth-colour synchronisation
-  bool fine_depth = false;     ///< sends depth in 0.1 mm only, instead of 1 mm or 0.1 mm
+  bool has_colour = true;
+  bool has_depth = true;     ///< false: a webcam
+  bool registers = true;     ///< offers depth-to-colour registration, if the sequence's images are registered
+  bool synchronises = true;  ///< offers depth-colour synchronisation
+  bool fine_depth = false;   ///< sends depth in 0.1 mm only, instead of 1 mm or 0.1 mm
 
   /// True if an event of this kind is under way at a tick.
   bool is_active(Event::Kind kind, std::int64_t tick) const;
