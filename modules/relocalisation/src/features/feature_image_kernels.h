@@ -3,8 +3,6 @@
 /// The bodies of feature_image.h, for both devices.
 #pragma once
 
-#include <cmath>
-
 #include "features/feature_image.h"
 
 namespace foothold {
@@ -50,8 +48,6 @@ struct PackFeaturePixel {
   static constexpr float kMaxDepthM = 32.0F;  ///< what 16 bits of millimetres hold
 };
 
-FOOTHOLD_HD inline int clamp_index(int i, int size) { return i < 0 ? 0 : (i >= size ? size - 1 : i); }
-
 /// Walks a few pixels down one tree, side by side so that their memory accesses overlap; evaluates only the features on their way.
 template <int kWidth>
 struct FindLeaves {
@@ -78,7 +74,7 @@ struct FindLeaves {
       any_branch = false;
       for (int w = 0; w < num; ++w) {
         if (node[w].left_child < 0) continue;
-        const int value = evaluate_feature(u[w], v[w], px_per_offset[w], forest.features[node[w].feature]);
+        const int value = evaluate_feature(image, u[w], v[w], px_per_offset[w], forest.features[node[w].feature]);
         node[w] = forest.nodes[node[w].left_child + (value >= node[w].threshold ? 1 : 0)];
         any_branch = true;
       }
@@ -97,14 +93,6 @@ struct FindLeaves {
     const bool has_depth = pixel.depth_m > 0.0F && depth_mm > 0;
     px_per_offset = has_depth ? image.offset_scale_px_mm / static_cast<float>(depth_mm) : 0.0F;
     node = has_depth ? forest.nodes[root] : ForestNode{~forest.num_leaves, 0, 0};
-  }
-
-  /// Eq. 1 and 2: the difference of a channel between a pixel and its partner, which is clamped to the image.
-  FOOTHOLD_HD int evaluate_feature(int u, int v, float px_per_offset, const ForestFeature& feature) const {
-    const int partner_u = clamp_index(u + static_cast<int>(std::floor(feature.offset_u_px_m * px_per_offset + 0.5F)), image.width);
-    const int partner_v = clamp_index(v + static_cast<int>(std::floor(feature.offset_v_px_m * px_per_offset + 0.5F)), image.height);
-    const auto channel = static_cast<int>(feature.channel);
-    return image.pixels[v * image.width + u].channels[channel] - image.pixels[partner_v * image.width + partner_u].channels[channel];
   }
 };
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The image that features are evaluated on, and their evaluation. Reference: [Cavallari2017] Sec. 2.2.1, Eq. 1 and 2.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "foothold/api/frame.h"
+#include "foothold/base/array.h"
+#include "foothold/base/context.h"
+#include "foothold/relocalisation/forest.h"
+
+namespace foothold {
+
+/// One pixel of the image that features are evaluated on: everything a split can ask for, in 8 bytes.
+struct FeaturePixel {
+  /// Indexed by FeatureChannel: mean of the valid depths [mm], 0 for none; mean red, green and blue [grey levels].
+  std::int16_t channels[4] = {};
+
+  FOOTHOLD_HD int depth_mm() const { return channels[0]; }
+  FOOTHOLD_HD int r() const { return channels[1]; }
+  FOOTHOLD_HD int g() const { return channels[2]; }
+  FOOTHOLD_HD int b() const { return channels[3]; }
+};
+static_assert(sizeof(FeaturePixel) == 8, "loaded as one word");
+
+/// A frame averaged down and packed.
+struct FeatureImageView {
+  const FeaturePixel* pixels = nullptr;
+  int width = 0;
+  int height = 0;
+  /// Pixels of this image per unit of a feature's offset, times millimetres: partner = p + offset * scale / depth_mm.
+  float offset_scale_px_mm = 0.0F;
+};
+
+/// Owns the packed image of the current frame.
+class FeatureImage {
+ public:
+  explicit FeatureImage(const Context& context) : pixels_(context.memory()) {}
+
+  /// Averages blocks of downscale x downscale pixels of a frame in the context's memory.
+  void compute(const Context& context, const Frame& frame, int downscale);
+  FeatureImageView view() const { return view_; }
+  int downscale() const { return downscale_; }
+
+ private:
+  Array<FeaturePixel> pixels_;
+  FeatureImageView view_;
+  int downscale_ = 1;
+};
+
+/// The index nearest to i in [0, size).
+FOOTHOLD_HD inline int clamp_index(int i, int size) { return i < 0 ? 0 : (i >= size ? size - 1 : i); }
+
+/// The difference of a channel between pixel (u, v) of the feature image and its partner, which is clamped to the image: [mm] for depth,
+/// [grey levels] for colour. Reference: [Cavallari2017] Eq. 1 and 2.
+///
+/// @param px_per_offset  image.offset_scale_px_mm over the pixel's depth [mm].
+FOOTHOLD_HD inline int evaluate_feature(const FeatureImageView& image, int u, int v, float px_per_offset, const ForestFeature& feature) {
+  const int partner_u = clamp_index(u + static_cast<int>(std::floor(feature.offset_u_px_m * px_per_offset + 0.5F)), image.width);
+  const int partner_v = clamp_index(v + static_cast<int>(std::floor(feature.offset_v_px_m * px_per_offset + 0.5F)), image.height);
+  const auto channel = static_cast<int>(feature.channel);
+  return image.pixels[v * image.width + u].channels[channel] - image.pixels[partner_v * image.width + partner_u].channels[channel];
+}
+
+}  // namespace foothold
