@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "foothold/io/calibration.h"
 #include "text_file.h"
 
 namespace foothold::io {
@@ -103,3 +104,13 @@ RgbdCalibration read_seven_scenes_calibration(const std::filesystem::path& folde
 }
 
 }  // namespace foothold::io
+
+namespace foothold {
+
+RgbdCalibration read_calibration(const std::string& folder) {
+  const std::filesystem::path depth_file = std::filesystem::path(folder) / "camera-intrinsics.txt";
+  if (!std::filesystem::exists(depth_file)) throw FileError(depth_file.string() + ": missing; expected the 3x3 matrix of the depth camera");
+  return io::read_seven_scenes_calibration(folder);
+}
+
+}  // namespace foothold
