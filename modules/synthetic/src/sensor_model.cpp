@@ -26,6 +26,29 @@ float normal_of(std::uint64_t bits, unsigned shift) {
   return (sum - 510.0F) * (1.0F / 147.8F);
 }
 
+/// value_noise() along one row, one cell per `patch` pixels.
+class SmoothRow {
+ public:
+  SmoothRow(float patch_px, int width, int v, std::uint32_t seed) : inverse_patch_(1.0F / patch_px) {
+    const float y = static_cast<float>(v) * inverse_patch_;
+    const int iy = floor_to_int(y);
+    const float f = y - static_cast<float>(iy);
+    const float smooth = f * f * (3.0F - 2.0F * f);
+    const int num_nodes = floor_to_int(static_cast<float>(width) * inverse_patch_) + 2;
+    for (int ix = 0; ix < num_nodes; ++ix) nodes_.push_back(mix(cell_uniform(ix, iy, seed), cell_uniform(ix, iy + 1, seed), smooth) - 0.5F);
+  }
+  float operator()(int u) const {
+    const float x = static_cast<float>(u) * inverse_patch_;
+    const auto ix = static_cast<std::size_t>(x);
+    const float f = x - static_cast<float>(ix);
+    return mix(nodes_[ix], nodes_[ix + 1], f * f * (3.0F - 2.0F * f));
+  }
+
+ private:
+  float inverse_patch_;
+  std::vector<float> nodes_;
+};
+
 /// One measurement's noise: pixel numbers and a seed in, random numbers out.
 class Measurement {
  public:
@@ -34,24 +57,26 @@ class Measurement {
 
   void depth_row(int v, float* out) const {
     const std::vector<bool> shadow = shadowed(v);
-    for (int u = 0; u < ideal_.depth.width(); ++u) out[u] = shadow[static_cast<std::size_t>(u)] ? 0.0F : depth(u, v);
+    const SmoothRow smooth(kNoisePatch_px * scale_, ideal_.depth.width(), v, static_cast<std::uint32_t>(seed_));
+    for (int u = 0; u < ideal_.depth.width(); ++u) out[u] = shadow[static_cast<std::size_t>(u)] ? 0.0F : depth(u, v, smooth(u));
   }
 
-  void colour_row(int v, float red_gain, float green_gain, float blue_gain, Rgb8* out) const {
+  void colour_row(int v, const float gains[3], Rgb8* out) const {
     const int width = ideal_.colour.width();
-    const int height = ideal_.colour.height();
-    const float y = 2.0F * static_cast<float>(v) / static_cast<float>(height) - 1.0F;
+    const std::vector<float> mean = blurred_row(v);
+    const float y = 2.0F * static_cast<float>(v) / static_cast<float>(ideal_.colour.height()) - 1.0F;
     for (int u = 0; u < width; ++u) {
       const float x = 2.0F * static_cast<float>(u) / static_cast<float>(width) - 1.0F;
-      const float gain = 1.0F - 0.5F * model_.vignetting * (x * x + y * y);
+      const float brightness = 1.0F - 0.5F * model_.vignetting * (x * x + y * y);
       const std::uint64_t bits = pixel_bits(u, v, 2);
-      const auto noisy = [&](float value, float channel_gain, unsigned shift) {
-        const float noise = model_.colour_sigma * normal_of(bits, shift);
-        return static_cast<std::uint8_t>(std::clamp(value * gain * channel_gain + noise, 0.0F, 255.0F) + 0.5F);
-      };
-      const Eigen::Vector3f mean = blurred(u, v);
-      // The bytes overlap: neighbouring channels share some noise, as after demosaicing.
-      out[u] = {noisy(mean.x(), red_gain, 0), noisy(mean.y(), green_gain, 16), noisy(mean.z(), blue_gain, 32)};
+      std::uint8_t channels[3];
+      for (unsigned c = 0; c < 3; ++c) {
+        // The bytes of neighbouring channels overlap: they share some noise, as after demosaicing.
+        const float noise = model_.colour_sigma * normal_of(bits, 16U * c);
+        const float value = mean[3 * static_cast<std::size_t>(u) + c] * brightness * gains[c] + noise;
+        channels[c] = static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+      }
+      out[u] = {channels[0], channels[1], channels[2]};
     }
   }
 
@@ -76,7 +101,7 @@ class Measurement {
     return result;
   }
 
-  float depth(int u, int v) const {
+  float depth(int u, int v, float smooth) const {
     const std::uint64_t bits = pixel_bits(u, v, 1);
     const int jitter_u = static_cast<int>(std::lround(model_.lateral_sigma_px * scale_ * normal_of(bits, 0)));
     const int jitter_v = static_cast<int>(std::lround(model_.lateral_sigma_px * scale_ * normal_of(bits, 24)));
@@ -85,9 +110,6 @@ class Measurement {
     const float z = ideal_.depth(su, sv);
     if (z < model_.min_depth_m || z > model_.max_depth_m) return 0.0F;
 
-    const auto seed = static_cast<std::uint32_t>(seed_);
-    const float patch = kNoisePatch_px * scale_;
-    const float smooth = value_noise(static_cast<float>(u) / patch, static_cast<float>(v) / patch, seed);
     const float white = normal_of(bits, 32);
     const Material& material = room_.primitives[static_cast<std::size_t>(ideal_.primitive(su, sv))].material;
     const float facing = saturate(ideal_.incidence_cosine(su, sv) / model_.grazing_cosine - 0.5F);
@@ -101,19 +123,20 @@ class Measurement {
     return steps > 0.0F ? model_.focal_baseline_px_m / (steps * model_.disparity_step_px) : 0.0F;
   }
 
-  /// The ideal colour under a 3x3 binomial blur: lens, demosaicing and compression.
-  Eigen::Vector3f blurred(int u, int v) const {
-    static constexpr float kWeights[3] = {0.25F, 0.5F, 0.25F};
-    Eigen::Vector3f sum = Eigen::Vector3f::Zero();
-    for (int dv = -1; dv <= 1; ++dv) {
-      const int sv = std::clamp(v + dv, 0, ideal_.colour.height() - 1);
-      for (int du = -1; du <= 1; ++du) {
-        const Rgb8& c = ideal_.colour(std::clamp(u + du, 0, ideal_.colour.width() - 1), sv);
-        sum += kWeights[du + 1] * kWeights[dv + 1] *
-               Eigen::Vector3f(static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b));
-      }
-    }
-    return sum;
+  /// A row of the ideal colours, three numbers a pixel, under a 3x3 binomial blur: lens, demosaicing and compression.
+  std::vector<float> blurred_row(int v) const {
+    const int width = ideal_.colour.width();
+    const std::uint8_t* rows[3];
+    for (int dv = -1; dv <= 1; ++dv) rows[dv + 1] = &ideal_.colour(0, std::clamp(v + dv, 0, ideal_.colour.height() - 1)).r;
+    // A pixel's copy at either end spares the ends a special case.
+    const std::size_t n = 3 * static_cast<std::size_t>(width);
+    std::vector<float> column(n + 6);
+    for (std::size_t i = 0; i < n; ++i) column[i + 3] = static_cast<float>(rows[0][i] + 2 * rows[1][i] + rows[2][i]);
+    std::copy_n(column.begin() + 3, 3, column.begin());
+    std::copy_n(column.end() - 6, 3, column.end() - 3);
+    std::vector<float> result(n);
+    for (std::size_t i = 0; i < n; ++i) result[i] = (column[i] + 2.0F * column[i + 3] + column[i + 6]) * (1.0F / 16.0F);
+    return result;
   }
 
   const SensorModel& model_;
@@ -155,9 +178,10 @@ RenderedView measure(const SensorModel& model, const Room& room, RenderedView id
   Image<Rgb8> colour(width, height);
   const float exposure = 1.0F + model.exposure_drift * drift(seed, 1, frame);
   const float warmth = 0.4F * model.exposure_drift * drift(seed, 2, frame);
+  const float gains[3] = {exposure * (1.0F + warmth), exposure, exposure * (1.0F - warmth)};
   for (int v = 0; v < height; ++v) {
     measurement.depth_row(v, &depth(0, v));
-    measurement.colour_row(v, exposure * (1.0F + warmth), exposure, exposure * (1.0F - warmth), &colour(0, v));
+    measurement.colour_row(v, gains, &colour(0, v));
   }
   ideal.depth = std::move(depth);
   ideal.colour = std::move(colour);
