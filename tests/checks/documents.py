@@ -6,7 +6,7 @@
     documents.py REPOSITORY
 
 Links lead somewhere, files named in `code` exist, cited papers are in REFERENCES.md,
-and the README names every module, app and preset.
+the README names every module, app and preset, and its example is the one that tests compile.
 """
 
 import json
@@ -17,6 +17,9 @@ import sys
 LINK = re.compile(r"\]\(([^)#\s]+)(?:#[^)]*)?\)")
 CODE_PATH = re.compile(r"`((?:scripts|docs|modules|apps|tests|cmake|data|\.ci)/[\w./-]*\w)`")
 CITATION = re.compile(r"\[([A-Z][a-z]+(?:[A-Z][a-z]+)*\d{4}[a-z]?)\]")
+EXAMPLE = "tests/consumer/project/example.cpp"  # compiled by the consumer test, shown by the README
+PLACEHOLDER = re.compile(r"(^|/)[A-Z]{4,}\b(?!\.md)")  # modules/NAME
+NOT_APPS = {"common"}
 LISTED = re.compile(r"^- \*\*\[(\w+)\]\*\*", re.MULTILINE)
 SOURCE_ENDINGS = (".h", ".cpp", ".cu", ".cuh", ".py", ".md")
 
@@ -52,7 +55,7 @@ class Checker:
                     if "://" not in target and not self.exists(os.path.join(os.path.dirname(document), target)):
                         self.violations.append(f"{document}:{number}: the link to {target} leads nowhere")
                 for path in CODE_PATH.findall(line):
-                    if not self.exists(path):
+                    if not PLACEHOLDER.search(path) and not self.exists(path):
                         self.violations.append(f"{document}:{number}: {path} does not exist")
 
     def check_citations(self):
@@ -74,14 +77,20 @@ class Checker:
             for name in sorted(os.listdir(folder)) if os.path.isdir(folder) else []:
                 part = os.path.join(folder, name)
                 built = os.path.exists(os.path.join(part, "CMakeLists.txt")) or os.path.exists(os.path.join(part, "main.cpp"))
-                if built and f"`{name}`" not in readme:
+                if built and name not in NOT_APPS and f"`{name}`" not in readme:
                     self.violations.append(f"README.md: does not name {kind}/{name}")
         for preset in json.loads(self.read("CMakePresets.json"))["configurePresets"]:
             if not preset.get("hidden") and f"`{preset['name']}`" not in readme:
                 self.violations.append(f"README.md: does not name the preset {preset['name']}")
 
+    def check_example(self):
+        example = self.read(EXAMPLE).split("// [begin]\n")[1].split("// [end]\n")[0]
+        if f"```cpp\n{example}```\n" not in self.read("README.md"):
+            self.violations.append(f"README.md: its example differs from {EXAMPLE}")
+
     def run(self):
         self.check_paths()
+        self.check_example()
         self.check_citations()
         self.check_readme()
         return self.violations

@@ -8,6 +8,7 @@
 #include <istream>
 #include <ostream>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "foothold/base/array.h"
@@ -38,6 +39,13 @@ struct CodeSettings {
   std::uint64_t seed;
 };
 static_assert(sizeof(CodeSettings) == 32, "CodeSettings is written to files as bytes");
+
+bool operator==(const CodeSettings& a, const CodeSettings& b) {
+  const auto fields = [](const CodeSettings& s) {
+    return std::tie(s.num_ferns, s.encoded_width_px, s.smoothing_sigma_px, s.min_threshold_m, s.max_threshold_m, s.reserved, s.seed);
+  };
+  return fields(a) == fields(b);
+}
 
 CodeSettings code_settings(const KeyframeRelocaliserSettings& s) {
   return {s.num_ferns, s.encoded_width_px, s.smoothing_sigma_px, s.min_threshold_m, s.max_threshold_m, 0, s.seed};
@@ -70,7 +78,7 @@ class ChecksummedReader {
   }
   template <class T>
   T read() {
-    T value;
+    T value{};
     read(&value, sizeof(T));
     return value;
   }
@@ -235,7 +243,7 @@ void KeyframeRelocaliser::load(std::istream& stream) {
   if (version != kVersion) throw FileError("keyframe scene: version " + std::to_string(version) + "; expected " + std::to_string(kVersion));
   const auto code = reader.read<CodeSettings>();
   const CodeSettings expected = code_settings(state_->settings);
-  if (std::memcmp(&code, &expected, sizeof(code)) != 0) {
+  if (!(code == expected)) {
     throw FileError("keyframe scene: made with other ferns (" + std::to_string(code.num_ferns) + " with seed " + std::to_string(code.seed) +
                     "); expected the settings of this relocaliser (" + std::to_string(expected.num_ferns) + " with seed " +
                     std::to_string(expected.seed) + ", and equal image width, smoothing and thresholds)");
