@@ -2,7 +2,8 @@
 // Copyright (c) 2026 The Foothold authors
 /// The host's executor: the verbs that algorithms are written in, on oneTBB.
 ///
-/// An algorithm is a template over an executor, its steps are functors marked FOOTHOLD_HD, and this file and cuda_executor.cuh offer the same verbs:
+/// An algorithm is a template over an executor, its steps are functors marked FOOTHOLD_HD, and this file and cuda_executor.cuh offer the
+/// same verbs:
 ///
 ///   for_each(n, body)                body(i) for i in [0, n), in any order
 ///   for_each_team<Scratch>(n, body)  body(team, i): one team of lanes per item, with Scratch shared by its lanes

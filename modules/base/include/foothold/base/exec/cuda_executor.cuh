@@ -116,7 +116,8 @@ class CudaExecutor {
     FOOTHOLD_CUDA_CHECK(sort_keys(nullptr));
     FOOTHOLD_CUDA_CHECK(sort_keys(detail::cuda_scratch(context_, num_bytes)));
     if (both.Current() != keys.data()) {
-      FOOTHOLD_CUDA_CHECK(cudaMemcpyAsync(keys.data(), both.Current(), keys.size() * sizeof(std::uint64_t), cudaMemcpyDeviceToDevice, stream_));
+      FOOTHOLD_CUDA_CHECK(
+          cudaMemcpyAsync(keys.data(), both.Current(), keys.size() * sizeof(std::uint64_t), cudaMemcpyDeviceToDevice, stream_));
     }
   }
 
