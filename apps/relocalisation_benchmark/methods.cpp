@@ -6,20 +6,29 @@
 
 #include "foothold/base/error.h"
 #include "foothold/relocalisation/forest_relocaliser.h"
+#include "uploading_relocaliser.h"
 
 namespace foothold::benchmark {
 namespace {
 
+std::unique_ptr<Relocaliser> make_forest_relocaliser(const Context& context, const Forest& forest,
+                                                     const ForestRelocaliserSettings& settings) {
+  auto relocaliser = std::make_unique<ForestRelocaliser>(context, forest, settings);
+  if (context.memory() == MemoryKind::kHost) return relocaliser;
+  return std::make_unique<UploadingRelocaliser>(context, std::move(relocaliser));
+}
+
 std::vector<Method> list_methods() {
   return {{"forest", "forest adapted online, tuned settings", true,
            [](const Context& context, const MethodInputs& inputs) {
-             return std::make_unique<ForestRelocaliser>(context, *inputs.forest, inputs.settings.forest);
+             return make_forest_relocaliser(context, *inputs.forest, inputs.settings.forest);
            }},
           {"paper", "forest adapted online, the paper's settings", true,
            [](const Context& context, const MethodInputs& inputs) {
-             return std::make_unique<ForestRelocaliser>(context, *inputs.forest, inputs.settings.paper);
+             return make_forest_relocaliser(context, *inputs.forest, inputs.settings.paper);
            }},
-          {"ferns", "random ferns, the nearest keyframe's pose", false, [](const Context& context, const MethodInputs& inputs) {
+          {"ferns", "random ferns, the nearest keyframe's pose; on the host whatever the device", false,
+           [](const Context& context, const MethodInputs& inputs) {
              return std::make_unique<KeyframeRelocaliser>(context, inputs.settings.ferns);
            }}};
 }
