@@ -6,19 +6,19 @@
 #
 #   scripts/install_packages.sh [--developer]
 #
-# --developer adds clang-format-14 and clang-tidy-14, which tests/checks uses where present.
+# --developer adds clang for the fuzz targets, and clang-format-14 and clang-tidy-14, which checks use where present.
 # Needs root or sudo only if something is missing. CUDA is optional and never installed by this script.
 set -euo pipefail
 
 packages=(
-  build-essential cmake ninja-build ccache pkg-config                       # to build
+  build-essential cmake ninja-build ccache pkgconf                          # to build
   libeigen3-dev libtbb-dev                                                  # the libraries
   libopencv-dev nlohmann-json3-dev libcli11-dev libspdlog-dev libopenni2-dev  # reading sequences, cameras, and the apps
   catch2 python3 xvfb xauth                                                 # the tests
 )
 case "${1:-}" in
   "") ;;
-  --developer) packages+=(clang-format-14 clang-tidy-14) ;;
+  --developer) packages+=(clang clang-format-14 clang-tidy-14) ;;
   *) echo "usage: $0 [--developer]; got '$1'" >&2; exit 2 ;;
 esac
 
@@ -52,7 +52,7 @@ echo "install_packages: installing ${missing[*]} (a few minutes on a bare machin
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
 if ! install >"$log" 2>&1; then
-  "${as_root[@]}" apt-get update --quiet </dev/null
+  "${as_root[@]}" apt-get update --quiet </dev/null || echo "install_packages: the package lists could not be refreshed" >&2
   if ! install; then
     echo "install_packages: could not install ${missing[*]}" >&2
     exit 1
