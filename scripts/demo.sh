@@ -38,5 +38,5 @@ if ! scripts/build.sh release relocalisation_benchmark 2>&1 | tee build/demo/bui
   exit 1
 fi
 
-build/release/bin/relocalisation_benchmark loss --sequence "$sequence" --method forest,ferns \
-  --plot build/demo/recall.png --json build/demo/results.json
+build/release/bin/relocalisation_benchmark loss --sequence "$sequence" --method forest,ferns --exclusive-timing \
+  --plot "$PWD/build/demo/recall.png" --json "$PWD/build/demo/results.json"
