@@ -106,6 +106,16 @@ TEST_CASE("SevenScenesWriter: refuses a folder that holds frames, and a file in 
   CHECK_THAT(error_of([&] { SevenScenesWriter writer(temp / "file"); }), Contains(temp / "file"));
 }
 
+TEST_CASE("SevenScenesWriter: a frame that cannot be written leaves the recording as it was") {
+  const TempFolder temp;
+  SevenScenesWriter writer(temp.path());
+  writer.write(small_frame(0));
+  fs::create_directory(temp / "frame-000001.pose.txt");  // in the way
+  CHECK_THAT(error_of([&] { writer.write(small_frame(1)); }), Contains("frame-000001.pose.txt"));
+  CHECK(writer.num_frames() == 1);
+  CHECK(open_sequence(temp.path(), Context())->num_frames() == 1);
+}
+
 TEST_CASE("open_sequence: a 7-Scenes folder without poses has frames without poses") {
   const TempFolder temp;
   SevenScenesWriter writer(temp.path());

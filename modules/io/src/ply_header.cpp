@@ -40,8 +40,9 @@ PlyType parse_type(std::string_view word, const std::filesystem::path& file) {
 
 PlyProperty parse_property(const std::vector<std::string_view>& words, const std::filesystem::path& file) {
   const bool is_list = words.size() == 5 && words[1] == "list";
-  if (!is_list && words.size() != 3)
+  if (!is_list && words.size() != 3) {
     throw_file_error(file, "a property of " + std::to_string(words.size()) + " words", "property TYPE NAME");
+  }
   PlyProperty property{std::string(words.back()), parse_type(words[words.size() - 2], file), is_list, PlyType::kUint8};
   if (is_list) property.count_type = parse_type(words[2], file);
   if (is_list && (property.count_type == PlyType::kFloat32 || property.count_type == PlyType::kFloat64)) {

@@ -53,8 +53,9 @@ SevenScenesWriter::SevenScenesWriter(const std::string& folder) : folder_(folder
   if (!std::filesystem::is_directory(folder)) {
     throw FileError(folder + ": cannot be created: " + (error ? error.message() : "a file of this name is in the way"));
   }
-  if (io::looks_like_seven_scenes(folder))
+  if (io::looks_like_seven_scenes(folder)) {
     throw FileError(folder + ": got a folder that holds frames already, expected a new or empty one");
+  }
 }
 
 void SevenScenesWriter::write(const RgbdFrame& frame) {
@@ -72,11 +73,21 @@ void SevenScenesWriter::write(const RgbdFrame& frame) {
 
   std::array<char, 32> stem{};
   std::snprintf(stem.data(), stem.size(), "frame-%06d", num_frames());
-  write_png(path(std::string(stem.data()) + ".color.png"), frame.colour);
-  write_png(path(std::string(stem.data()) + ".depth.png"), depth_in_millimetres(frame.depth));
-  if (has_poses_)
-    write_file_atomically(path(std::string(stem.data()) + ".pose.txt"), transform_text(*frame.world_from_camera), Durability::kCrash);
+  try {
+    write_files(path(stem.data()), frame);
+  } catch (const FileError&) {
+    // What was recorded before, say until the disk was full, shall stay a valid recording.
+    std::error_code ignored;
+    for (const char* suffix : {".color.png", ".depth.png", ".pose.txt"}) std::filesystem::remove(path(stem.data()) + suffix, ignored);
+    throw;
+  }
   times_s_.push_back(frame.timestamp_s);
+}
+
+void SevenScenesWriter::write_files(const std::string& stem, const RgbdFrame& frame) const {
+  write_png(stem + ".color.png", frame.colour);
+  write_png(stem + ".depth.png", depth_in_millimetres(frame.depth));
+  if (has_poses_) write_file_atomically(stem + ".pose.txt", transform_text(*frame.world_from_camera), Durability::kCrash);
 }
 
 void SevenScenesWriter::finish() {

@@ -38,8 +38,9 @@ Intrinsics intrinsics_by_name(const std::string& name) {
     for (std::size_t at = name.find(prefix); at != std::string::npos; at = name.find(prefix, at + 1)) {
       const std::size_t digit = at + prefix.size();
       const bool number_ends = digit + 1 >= name.size() || std::isdigit(static_cast<unsigned char>(name[digit + 1])) == 0;
-      if (digit < name.size() && name[digit] >= '1' && name[digit] <= '3' && number_ends)
+      if (digit < name.size() && name[digit] >= '1' && name[digit] <= '3' && number_ends) {
         return kFreiburg[static_cast<std::size_t>(name[digit] - '1')];
+      }
     }
   }
   return kRosDefault;

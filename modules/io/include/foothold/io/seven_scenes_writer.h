@@ -21,7 +21,7 @@ class SevenScenesWriter {
 
   /// Adds a frame, numbered on from the last. Poses: either every frame has one, or none.
   /// @pre describe_frame_error(frame.view()) is empty; size and calibration are those of the first frame; pose or no pose likewise.
-  /// @throws FileError
+  /// @throws FileError, after which the recording holds the frames before this one.
   void write(const RgbdFrame& frame);
 
   int num_frames() const { return static_cast<int>(times_s_.size()); }
@@ -31,6 +31,7 @@ class SevenScenesWriter {
 
  private:
   void write_calibration() const;
+  void write_files(const std::string& stem, const RgbdFrame& frame) const;
   std::string path(const std::string& name) const;
 
   std::string folder_;
