@@ -11,6 +11,7 @@
 #include "features/feature_image.h"
 #include "foothold/base/binary_stream.h"
 #include "foothold/base/contract.h"
+#include "pose/confidence.h"
 #include "pose/pose_estimator.h"
 #include "reservoirs/leaf_reservoirs.h"
 
@@ -36,9 +37,6 @@ struct DeviceForest {
   Array<std::int32_t> roots;
   int num_leaves;
 };
-
-/// Probability that a candidate is right, from what its pose explains.
-float confidence_of(const PoseCandidate& candidate) { return candidate.inlier_fraction; }
 
 void expect_usable(const Context& context, const Frame& frame) {
   FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
@@ -129,7 +127,9 @@ std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) {
     SE3 world_from_camera = candidate.scene_from_camera;
     world_from_camera.rotation = nearest_rotation(world_from_camera.rotation);
     world_from_camera.translation += s.reservoirs.origin_world();
-    estimates.push_back({world_from_camera, confidence_of(candidate)});
+    // Candidates behind the best were not aligned, and must not appear surer than it is.
+    const float confidence = confidence_of(candidate);
+    estimates.push_back({world_from_camera, estimates.empty() ? confidence : std::min(confidence, estimates.front().confidence)});
   }
   return estimates;
 }

@@ -15,18 +15,22 @@ ForestRelocaliserSettings paper_preset() {
   settings.clustering.sigma_m = 0.1F;
   settings.clustering.tau_m = 0.05F;
   settings.clustering.min_cluster_size = 20;
+  settings.clustering.covariance_floor_m = 0.02F;
   settings.clustering.max_modes = 10;
   settings.clustering.touched_first = false;
   settings.clustering.leaves_per_frame = 256;
   settings.clustering.point_budget = 0;
   settings.pose.num_hypotheses = 1024;
+  settings.pose.max_draws = 6000;
   settings.pose.max_rigidity_error_m = 0.025F;
   settings.pose.scan_modes = false;
   settings.pose.cull_samples = 500;
   settings.pose.first_cull_samples = 500;
+  settings.pose.cull_survivors = 64;
   settings.pose.round_samples = 500;
   settings.pose.energy_truncation = 1e6F;
   settings.pose.refinement_iterations = 10;
+  settings.pose.final_iterations = 10;
   settings.pose.alignment_iterations = 0;
   return settings;
 }

@@ -68,30 +68,36 @@ struct AlignWithPoints {
   float last_radius_m;
   const std::uint64_t* order;
   SE3* hypotheses;
-  float* support;  ///< per candidate: fraction of samples with remembered points around them
+  float* misfits;  ///< per slot: 0 if every sample lies on the remembered surface, 1 if none has any of it around
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t slot) const {
-    SE3& hypothesis = hypotheses[hypothesis_of(order[slot])];
-    SE3 pose = hypothesis;
-    float supported = 0.0F;
+    const std::uint32_t hypothesis = hypothesis_of(order[slot]);
+    SE3 pose = hypotheses[hypothesis];
+    float fit = 0.0F;
     for (int iteration = 0; iteration < num_iterations; ++iteration) {
       const float progress = num_iterations > 1 ? static_cast<float>(iteration) / static_cast<float>(num_iterations - 1) : 1.0F;
       const float radius_mm = 1000.0F * (first_radius_m + (last_radius_m - first_radius_m) * progress);
-      float sums[kNumSums + 1] = {};
-      for (int i = team.lane(); i < num_samples; i += team.size()) add_sample(pose, static_cast<std::size_t>(i), radius_mm, sums);
-      team.sum_all(sums, kNumSums + 1);
-      supported = sums[kNumSums - 1] / (sums[kNumSums] > 0.0F ? sums[kNumSums] : 1.0F);
+      float sums[kNumAlignmentSums] = {};
+      const int num_used = 2 * iteration < num_iterations ? num_samples / 3 : num_samples;  // few samples suffice at first
+      for (int i = team.lane(); i < num_used; i += team.size()) add_sample(pose, static_cast<std::size_t>(i), radius_mm, sums);
+      team.sum_all(sums, kNumAlignmentSums);
+      fit = sums[kFit] / (sums[kNumWithSurface] > 0.0F ? sums[kNumWithSurface] : 1.0F);
       float twist[6];
-      if (sums[kNumSums - 1] < kMinSupported || !solve_damped(sums, kDamping, twist)) break;
+      if (sums[kNumSupported] < kMinSupported || !solve_damped(sums, kDamping, twist)) break;
       pose = perturbed(pose, twist);
     }
     team.sync();
     if (team.lane() != 0) return;
-    hypothesis = pose;
-    support[slot] = supported;
+    hypotheses[hypothesis] = pose;
+    misfits[slot] = 1.0F - fit;
   }
 
  private:
+  // Behind the Hessian and the gradient of solve_damped():
+  static constexpr int kNumSupported = kNumHessian + 6;  ///< samples with remembered points around them
+  static constexpr int kNumWithSurface = kNumSupported + 1;
+  static constexpr int kFit = kNumSupported + 2;
+  static constexpr int kNumAlignmentSums = kNumSupported + 3;
   static constexpr float kMinSupported = 50.0F;  ///< samples below which the alignment is not trusted
   static constexpr float kDamping = 1e-4F;
 
@@ -99,7 +105,7 @@ struct AlignWithPoints {
     const SurfaceSample& surface = surfaces[i];
     const Eigen::Vector3f normal_camera(surface.normal_camera[0], surface.normal_camera[1], surface.normal_camera[2]);
     if (normal_camera.squaredNorm() == 0.0F) return;
-    sums[kNumSums] += 1.0F;
+    sums[kNumWithSurface] += 1.0F;
     const Eigen::Vector3f q = pose.rotation * Eigen::Vector3f(surface.point_camera[0], surface.point_camera[1], surface.point_camera[2]);
     const Eigen::Vector3f n = pose.rotation * normal_camera;
     const Eigen::Vector3f p_mm = (q + pose.translation) * 1000.0F;
@@ -118,7 +124,9 @@ struct AlignWithPoints {
       for (int b = a; b < 6; ++b) sums[next++] += j[a] * j[b];
     }
     for (int a = 0; a < 6; ++a) sums[kNumHessian + a] -= j[a] * residual;
-    sums[kNumSums - 1] += 1.0F;
+    sums[kNumSupported] += 1.0F;
+    const float distance = std::fabs(residual) * 1000.0F / radius_mm;
+    sums[kFit] += distance < 1.0F ? 1.0F - distance : 0.0F;
   }
 
   static constexpr float kMinWeight = 0.5F;  ///< one remembered point nearby

@@ -28,7 +28,7 @@ PoseEstimator::Buffers::Buffers(MemoryKind memory)
       sort_buffer(memory),
       nearest(memory),
       surfaces(memory),
-      support(memory),
+      misfits(memory),
       candidates(memory) {}
 
 PoseEstimator::PoseEstimator(const Context& context, const PoseEstimatorSettings& settings)
@@ -49,7 +49,8 @@ PoseEstimator::PoseEstimator(const Context& context, const PoseEstimatorSettings
   const std::size_t refined = (static_cast<std::size_t>(settings.cull_survivors) + kLargestGroup - 1) / kLargestGroup * kLargestGroup;
   buffers_.nearest.resize(refined * pool_size);
   buffers_.candidates.resize(static_cast<std::size_t>(std::min(settings.num_candidates, settings.num_hypotheses)));
-  buffers_.support.resize(buffers_.candidates.size());
+  const std::vector<float> not_aligned(buffers_.candidates.size(), 1.0F);
+  buffers_.misfits.assign(Span<const float>(not_aligned));
 }
 
 std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const Frame& frame, const FeatureImage& image,

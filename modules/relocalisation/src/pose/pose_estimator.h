@@ -38,9 +38,10 @@ struct PoseCandidate {
   float mean_energy = 0.0F;      ///< truncated Mahalanobis distance per pooled pixel, Eq. 4
   float inlier_fraction = 0.0F;  ///< pooled pixels with a mode within kInlierDistanceM, among all pooled pixels with depth
   float fine_fraction = 0.0F;    ///< the same within kFineInlierDistanceM
+  float surface_fit = 0.0F;      ///< how well samples lie on the remembered surface, 0 to 1; 0 for candidates that were not aligned
   std::int32_t valid = 0;
 };
-static_assert(sizeof(PoseCandidate) == 64, "copied from the device");
+static_assert(sizeof(PoseCandidate) == 68, "copied from the device");
 
 inline constexpr float kInlierDistanceM = 0.05F;
 inline constexpr float kFineInlierDistanceM = 0.025F;
@@ -80,7 +81,7 @@ class PoseEstimator {
     Array<std::uint64_t> sort_buffer;
     Array<std::uint16_t> nearest;  ///< hypotheses x samples: position of the nearest mode
     Array<SurfaceSample> surfaces;
-    Array<float> support;  ///< per candidate
+    Array<float> misfits;  ///< per candidate, after alignment; 1 for those not aligned
     Array<PoseCandidate> candidates;
   };
 

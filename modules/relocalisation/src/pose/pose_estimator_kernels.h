@@ -136,7 +136,7 @@ void PoseAlgorithms<Executor>::preempt(const PoseProblem& problem, PoseEstimator
   }
 }
 
-/// Aligns the best candidates with the remembered points. The pool's leaves are those of fill_pool().
+/// Aligns the best candidate with the remembered points. The pool's leaves are those of fill_pool().
 template <class Executor>
 void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffers, const HypothesisSet<Executor>& set) {
   constexpr int kNeighbourDistancePx = 8;  // of the full frame, each way
@@ -151,12 +151,12 @@ void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffe
       1, AlignWithPoints<Executor>{problem.reservoirs, problem.forest.num_trees, static_cast<std::size_t>(settings.pool_size),
                                    buffers.leaves.data(), buffers.surfaces.data(), num_samples, settings.alignment_iterations,
                                    settings.first_alignment_radius_m, settings.last_alignment_radius_m, buffers.order.data(),
-                                   buffers.hypotheses.data(), buffers.support.data()});
+                                   buffers.hypotheses.data(), buffers.misfits.data()});
 }
 
 template <class Executor>
 void PoseAlgorithms<Executor>::finish(const PoseProblem& problem, PoseEstimator::Buffers& buffers) {
-  constexpr int kFinalRounds = 3;  // modes are assigned anew before each
+  constexpr int kFinalRounds = 2;  // modes are assigned anew before each
   const PoseEstimatorSettings& settings = problem.settings;
   const HypothesisSet<Executor> set(problem, buffers);
   for (int round = 0; round < kFinalRounds; ++round) set.refine(1, settings.pool_size, settings.final_iterations);
@@ -165,8 +165,8 @@ void PoseAlgorithms<Executor>::finish(const PoseProblem& problem, PoseEstimator:
   set.executor().template for_each_team<NoScratch>(
       set.num_groups(num_candidates),
       EvaluateCandidates<Executor>{set.pool(), buffers.sampled.data(), static_cast<std::size_t>(settings.pool_size),
-                                   buffers.hypotheses.data(), buffers.energies.data(), buffers.order.data(), num_candidates,
-                                   settings.energy_truncation, buffers.candidates.data()});
+                                   buffers.hypotheses.data(), buffers.energies.data(), buffers.misfits.data(), buffers.order.data(),
+                                   num_candidates, settings.energy_truncation, buffers.candidates.data()});
 }
 
 }  // namespace foothold

@@ -128,6 +128,7 @@ struct EvaluateCandidates {
   std::size_t pool_size;
   const SE3* hypotheses;
   const float* energies;
+  const float* misfits;
   const std::uint64_t* order;
   std::size_t num_candidates;
   float truncation;
@@ -155,6 +156,7 @@ struct EvaluateCandidates {
       candidate.mean_energy = (sums[w] + truncation * (num_with_depth - num_pixels)) * scale;
       candidate.inlier_fraction = sums[kWidth + w] * scale;
       candidate.fine_fraction = sums[2 * kWidth + w] * scale;
+      candidate.surface_fit = 1.0F - misfits[first_slot + static_cast<std::size_t>(w)];
       candidate.valid = energies[poses.index[w]] < 1e30F ? 1 : 0;
     }
   }

@@ -37,14 +37,14 @@ struct ReservoirSettings {
 
 /// How reservoirs become modes. Reference: [Cavallari2017] Sec. 2.2.2, step 3; [Fulkerson2010].
 struct ClusteringSettings {
-  float sigma_m = 0.1F;              ///< (R)
-  float tau_m = 0.05F;               ///< (R)
-  int min_cluster_size = 20;         ///< (R)
-  int max_modes = 10;                ///< (P)
-  float covariance_floor_m = 0.02F;  ///< (T) noise-free planes are singular without it
-  bool touched_first = true;         ///< (P) false = round robin, (T) true
-  int leaves_per_frame = 256;        ///< (P)
-  int point_budget = 0;              ///< (P) 0 = none
+  float sigma_m = 0.1F;               ///< (R)
+  float tau_m = 0.05F;                ///< (R)
+  int min_cluster_size = 8;           ///< (R) 20, (T) 8
+  int max_modes = 10;                 ///< (P)
+  float covariance_floor_m = 0.005F;  ///< (T) noise-free planes are singular without it; 0.02 blurs poses
+  bool touched_first = true;          ///< (P) false = round robin, (T) true
+  int leaves_per_frame = 1024;        ///< (P) 256, (T) 1024: the point budget ends a frame first, once leaves are full
+  int point_budget = 16000;           ///< (P) none, (T) 16000
 
   template <class Visitor>
   static void fields(Visitor& v) {
@@ -64,8 +64,8 @@ struct ClusteringSettings {
 /// How camera-pose hypotheses are drawn, culled and refined. Reference: [Cavallari2017] Sec. 2.2.3.
 struct PoseEstimatorSettings {
   int pool_size = 4000;                    ///< (T) the paper evaluates every pixel
-  int num_hypotheses = 1024;               ///< (P)
-  int max_draws = 6000;                    ///< (R)
+  int num_hypotheses = 512;                ///< (P) 1024, (T) 512
+  int max_draws = 100;                     ///< (R) 6000, (T) 100: enough when modes are scanned, and views of nowhere end soon
   int max_colour_difference = 30;          ///< (R)
   float min_triple_spread_m = 0.3F;        ///< (P)
   float max_rigidity_error_m = 0.05F;      ///< (R) 0.025, (T) 0.05
@@ -73,12 +73,12 @@ struct PoseEstimatorSettings {
   int cull_samples = 500;                  ///< (P)
   int first_cull_samples = 100;            ///< (P) none = cull_samples, (T) 100
   int first_cull_survivors = 256;          ///< (T)
-  int cull_survivors = 64;                 ///< (P)
+  int cull_survivors = 32;                 ///< (P) 64, (T) 32
   int round_samples = 250;                 ///< (P) 500, (T) 250
-  float energy_truncation = 4.0F;          ///< (P) none, (T) 4
+  float energy_truncation = 3.0F;          ///< (P) none, (T) 3
   float refinement_radius_m = 0.2F;        ///< (R)
-  int refinement_iterations = 4;           ///< (T)
-  int final_iterations = 10;               ///< (T)
+  int refinement_iterations = 3;           ///< (T)
+  int final_iterations = 4;                ///< (T)
   int alignment_iterations = 6;            ///< (P) 0, (T)
   int alignment_samples = 1500;            ///< (T)
   float first_alignment_radius_m = 0.06F;  ///< (T)
@@ -151,7 +151,7 @@ struct ForestRelocaliserSettings {
   ReservoirSettings reservoirs;
   ClusteringSettings clustering;
   PoseEstimatorSettings pose;
-  float acceptance_threshold = 0.5F;  ///< (T)
+  float acceptance_threshold = 0.9F;  ///< (T) see src/pose/confidence.h
   std::uint64_t seed = 42;
 
   template <class Visitor>
