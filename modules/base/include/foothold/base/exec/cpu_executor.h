@@ -24,6 +24,7 @@
 
 #include "foothold/base/array.h"
 #include "foothold/base/context.h"
+#include "foothold/base/exec/sanitized_loop.h"
 #include "foothold/base/span.h"
 
 namespace foothold {
@@ -109,10 +110,14 @@ class CpuExecutor {
       if (n != 0) loop(std::size_t{0}, n);
       return;
     }
+#ifdef FOOTHOLD_THREAD_SANITIZER
+    detail::run_on_threads(num_threads_, n, grain, loop);
+#else
     arena_.execute([&] {
       oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, n, grain),
                                 [&](const auto& range) { loop(range.begin(), range.end()); });
     });
+#endif
   }
 
   static void radix_pass(const std::uint64_t* from, std::uint64_t* to, std::size_t n, int shift, int bits) {
