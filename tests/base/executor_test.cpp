@@ -138,6 +138,19 @@ TEST_CASE("CpuExecutor: works with as many threads as asked for") {
   }
 }
 
+TEST_CASE("run_on_threads: covers the range in pieces, and an exception reaches the caller") {
+  for (const int num_threads : {1, 3}) {
+    for (const std::size_t size : kSizes) {
+      std::vector<std::atomic<int>> visits(size);
+      detail::run_on_threads(num_threads, size, 256, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) ++visits[i];
+      });
+      REQUIRE(std::all_of(visits.begin(), visits.end(), [](const auto& count) { return count == 1; }));
+    }
+    REQUIRE_THROWS_AS(detail::run_on_threads(num_threads, 10, 1, [](std::size_t, std::size_t) { throw std::bad_alloc(); }), std::bad_alloc);
+  }
+}
+
 TEST_CASE("CpuExecutor: loops may nest in a context of their own") {
   const Context outer = context_with(2);
   const Context inner = context_with(2);
