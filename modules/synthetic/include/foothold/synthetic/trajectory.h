@@ -17,11 +17,12 @@ enum class TrajectoryKind {
   kTest,   ///< follows the training path at another pace, up to about a metre beside it and turned by up to about 45 degrees
 };
 
-/// A camera path defined for all times, which repeats (but for the tremor) after its period of about 40 s.
+/// A camera path defined for all times. The training path repeats after 43 s, but for the tremor.
 ///
 /// Positions and viewing directions are uniform cubic B-splines through random control points, so velocities and accelerations are
-/// continuous; tremor adds a few millimetres and tenths of a degree. The control points are redrawn until the camera keeps its distance
-/// from every surface.
+/// continuous; tremor adds a few millimetres and tenths of a degree. Control points are redrawn until the camera keeps its distance from
+/// every surface, sees most of its view at a depth that a depth camera measures and, on the test path, until at least half of each view
+/// lies in training views of the last seconds. That is checked for the first 43 s.
 class Trajectory {
  public:
   /// @param seed  Varies the tremor only; the path belongs to the room.
