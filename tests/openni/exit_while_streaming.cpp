@@ -6,10 +6,12 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "sanitizer_suppressions.h"
+
 int main(int /*argc*/, char** argv) {
   if (openni::OpenNI::initialize() != openni::STATUS_OK) return 2;
-  auto* device = new openni::Device;
-  auto* depth = new openni::VideoStream;
+  static auto* device = new openni::Device;  // never destroyed
+  static auto* depth = new openni::VideoStream;
   if (device->open(openni::ANY_DEVICE) != openni::STATUS_OK) return 3;
   if (depth->create(*device, openni::SENSOR_DEPTH) != openni::STATUS_OK || depth->start() != openni::STATUS_OK) return 4;
   openni::VideoFrameRef image;

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "pattern_sequence.h"
+#include "sanitizer_suppressions.h"
 #include "support/catch.h"
 
 namespace foothold::test {

@@ -13,10 +13,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr auto kPatience = std::chrono::seconds(1);  ///< how long to wait for a host that is inside a callback
 
-/// A stream's sink. The mutex is held while a frame is being delivered.
+/// Where a stream's frames go.
 struct Outlet {
-  std::timed_mutex delivery;
-  Player::Sink sink;
+  Player::Sink sink;           ///< empty while the stream is closed
+  bool is_delivering = false;  ///< the sink is being called, without any lock held
 };
 
 void cover(RgbdFrame& frame) {
@@ -32,11 +32,10 @@ struct Player::State {
   const Script script;
   const std::shared_ptr<const Sequence> sequence;
   const Callbacks callbacks;
-  std::array<Outlet, 2> outlets;
 
   std::mutex mutex;  // guards what follows
   std::condition_variable changed;
-  std::array<bool, 2> is_open{};
+  std::array<Outlet, 2> outlets;
   bool connected = true;
   int connection = 0;
   bool stopping = false;
@@ -50,7 +49,7 @@ struct Player::State {
   Clock::duration period() const {
     return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(1.0 / script.frames_per_second));
   }
-  bool any_open() const { return is_open[0] || is_open[1]; }
+  bool any_open() const { return outlets[0].sink || outlets[1].sink; }
 
   /// Waits for the next tick of the clock. @return False if the camera stops.
   bool wait_for_tick() {
@@ -73,24 +72,26 @@ struct Player::State {
       const std::lock_guard<std::mutex> lock(mutex);
       if (connected == wanted) return;
       connected = wanted;
-      if (wanted) ++connection;
-      if (!wanted) is_open = {};
+      if (wanted) {
+        ++connection;
+      } else {
+        for (Outlet& outlet : outlets) outlet.sink = nullptr;
+      }
     }
-    if (wanted) {
-      callbacks.connected();
-      return;
-    }
-    for (Outlet& outlet : outlets) {
-      const std::lock_guard<std::timed_mutex> lock(outlet.delivery);
-      outlet.sink = nullptr;
-    }
-    callbacks.disconnected();
+    (wanted ? callbacks.connected : callbacks.disconnected)();
   }
 
   void deliver(Sensor sensor, const Shot& shot) {
+    std::unique_lock<std::mutex> lock(mutex);
     Outlet& outlet = outlets[static_cast<std::size_t>(sensor)];
-    const std::lock_guard<std::timed_mutex> lock(outlet.delivery);
-    if (outlet.sink) outlet.sink(shot);
+    if (!outlet.sink) return;
+    const Sink sink = outlet.sink;
+    outlet.is_delivering = true;
+    lock.unlock();  // the host takes locks of its own
+    sink(shot);
+    lock.lock();
+    outlet.is_delivering = false;
+    changed.notify_all();
   }
 
   void send(int index) {
@@ -99,6 +100,7 @@ struct Player::State {
       frame = sequence->load(index);
     } catch (const std::exception& error) {
       callbacks.failed(error.what());
+      wait_for_tick();
       return;
     }
     if (script.is_active(Event::Kind::kCover, tick)) cover(frame);
@@ -151,26 +153,18 @@ void Player::run(const std::shared_ptr<State>& state) {
 }
 
 bool Player::open_stream(int connection, Sensor sensor, Sink sink) {
-  const auto index = static_cast<std::size_t>(sensor);
-  const std::lock_guard<std::timed_mutex> delivery_lock(state_->outlets[index].delivery);
   const std::lock_guard<std::mutex> lock(state_->mutex);
   if (!state_->connected || connection != state_->connection) return false;
-  state_->outlets[index].sink = std::move(sink);
-  state_->is_open[index] = true;
+  state_->outlets[static_cast<std::size_t>(sensor)].sink = std::move(sink);
   state_->changed.notify_all();
   return true;
 }
 
 void Player::close_stream(int connection, Sensor sensor) {
-  const auto index = static_cast<std::size_t>(sensor);
-  {
-    const std::lock_guard<std::mutex> lock(state_->mutex);
-    if (connection != state_->connection) return;
-    state_->is_open[index] = false;
-  }
-  Outlet& outlet = state_->outlets[index];
-  const std::unique_lock<std::timed_mutex> lock(outlet.delivery, kPatience);
-  if (lock.owns_lock()) outlet.sink = nullptr;
+  std::unique_lock<std::mutex> lock(state_->mutex);
+  Outlet& outlet = state_->outlets[static_cast<std::size_t>(sensor)];
+  if (connection == state_->connection) outlet.sink = nullptr;
+  state_->changed.wait_for(lock, kPatience, [&] { return !outlet.is_delivering; });
 }
 
 int Player::connection() const {
