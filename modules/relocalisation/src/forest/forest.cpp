@@ -3,6 +3,7 @@
 #include "foothold/relocalisation/forest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "foothold/base/checksum.h"
@@ -10,6 +11,8 @@
 
 namespace foothold {
 namespace {
+
+constexpr float kMaxOffsetPxM = 1e4F;  ///< far beyond any image, and small enough for the partner's pixel to be an int
 
 [[noreturn]] void reject(const std::string& what) { throw InvalidSettings("forest: " + what); }
 
@@ -22,6 +25,10 @@ Forest::Forest(std::vector<ForestFeature> features, std::vector<ForestNode> node
   for (const ForestFeature& feature : features_) {
     const auto channel = static_cast<std::int32_t>(feature.channel);
     if (channel < 0 || channel > 3) reject("feature channel is " + std::to_string(channel) + ", expected 0 to 3");
+    for (const float offset : {feature.offset_u_px_m, feature.offset_v_px_m}) {
+      if (!(std::abs(offset) <= kMaxOffsetPxM))
+        reject("feature offset is " + std::to_string(offset) + ", expected at most " + std::to_string(kMaxOffsetPxM));
+    }
   }
   std::vector<bool> reached(nodes_.size(), false);
   std::vector<bool> leaf_seen(nodes_.size(), false);

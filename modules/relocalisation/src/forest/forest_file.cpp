@@ -91,6 +91,7 @@ Forest read_forest(std::istream& stream, const std::string& name) {
     if (count > kMaxElements)
       throw FileError(name + ": a count in the header is " + std::to_string(count) + ", expected at most " + std::to_string(kMaxElements));
   }
+  if (header.reserved != 0) throw FileError(name + ": the header's reserved field is " + std::to_string(header.reserved) + ", expected 0");
   std::vector<ForestFeature> features;
   std::vector<ForestNode> nodes;
   std::vector<std::int32_t> roots;
