@@ -10,6 +10,7 @@
 #include "clustering/leaf_modes.h"
 #include "features/feature_image.h"
 #include "foothold/base/binary_stream.h"
+#include "foothold/base/checksum.h"
 #include "foothold/base/contract.h"
 #include "pose/confidence.h"
 #include "pose/pose_estimator.h"
@@ -19,7 +20,7 @@ namespace foothold {
 namespace {
 
 constexpr std::uint64_t kSceneMagic = 0x454e454353484fULL;
-constexpr std::uint32_t kSceneVersion = 1;
+constexpr std::uint32_t kSceneVersion = 2;  // 2: checksummed
 constexpr float kRigidTolerance = 1e-2F;
 
 /// The forest's arrays in the device's memory.
@@ -37,6 +38,32 @@ struct DeviceForest {
   Array<std::int32_t> roots;
   int num_leaves;
 };
+
+/// Reads the reservoirs' and modes' bytes, which stand behind their size and checksum, in bounded steps: a lying size must not exhaust
+/// memory.
+std::string read_body(std::istream& stream) {
+  constexpr std::uint64_t kStep = 1U << 20U;
+  const auto size = read_value<std::uint64_t>(stream, "size");
+  const auto expected = read_value<std::uint64_t>(stream, "checksum");
+  std::string body;
+  while (body.size() < size) {
+    const std::size_t old_size = body.size();
+    const std::size_t step = std::min(kStep, size - old_size);
+    body.resize(old_size + step);
+    stream.read(&body[old_size], static_cast<std::streamsize>(step));
+    if (!stream) throw FileError("the saved scene is truncated; expected " + std::to_string(size) + " bytes behind its header");
+  }
+  const std::uint64_t checksum = fnv1a(kFnvBasis, body.data(), body.size());
+  if (checksum != expected) {
+    throw FileError("the saved scene is damaged; its checksum is " + std::to_string(checksum) + ", expected " + std::to_string(expected));
+  }
+  return body;
+}
+
+/// True if a frame has at least one block of pixels to average; smaller ones hold nothing to learn or to find.
+bool has_blocks(const Frame& frame, const FeatureSettings& settings) {
+  return frame.depth.width >= settings.downscale && frame.depth.height >= settings.downscale;
+}
 
 void expect_usable(const Context& context, const Frame& frame) {
   FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
@@ -92,6 +119,7 @@ void ForestRelocaliser::train(const Frame& frame, const SE3& world_from_camera) 
   State& s = *state_;
   expect_usable(s.context, frame);
   FOOTHOLD_EXPECTS(is_rigid(world_from_camera, kRigidTolerance));
+  if (!has_blocks(frame, s.settings.features)) return;
   {
     const ScopedStage stage(s.context, "train/features");
     s.image.compute(s.context, frame, s.settings.features.downscale);
@@ -116,7 +144,7 @@ void ForestRelocaliser::update() {
 std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) {
   State& s = *state_;
   expect_usable(s.context, frame);
-  if (s.reservoirs.num_frames() == 0) return {};
+  if (s.reservoirs.num_frames() == 0 || !has_blocks(frame, s.settings.features)) return {};
   {
     const ScopedStage stage(s.context, "relocalise/features");
     s.image.compute(s.context, frame, s.settings.features.downscale);
@@ -146,8 +174,13 @@ void ForestRelocaliser::save(std::ostream& stream) const {
   write_value(stream, s.forest.fingerprint());
   write_value(stream, s.settings.reservoirs.capacity);
   write_value(stream, s.settings.clustering.max_modes);
-  s.reservoirs.save(stream);
-  s.modes.save(stream);
+  std::ostringstream body_stream;
+  s.reservoirs.save(body_stream);
+  s.modes.save(body_stream);
+  const std::string body = body_stream.str();
+  write_value(stream, static_cast<std::uint64_t>(body.size()));
+  write_value(stream, fnv1a(kFnvBasis, body.data(), body.size()));
+  stream.write(body.data(), static_cast<std::streamsize>(body.size()));
   if (!stream) throw FileError("the relocaliser's scene could not be written: the stream failed");
 }
 
@@ -170,8 +203,9 @@ void ForestRelocaliser::load(std::istream& stream) {
   }
   LeafReservoirs reservoirs(s.context, s.forest.num_leaves(), s.settings.reservoirs, s.settings.seed);
   LeafModes modes(s.context, s.forest.num_leaves(), s.settings.clustering);
-  reservoirs.load(stream);
-  modes.load(stream);
+  std::istringstream body(read_body(stream));
+  reservoirs.load(body);
+  modes.load(body);
   s.reservoirs = std::move(reservoirs);
   s.modes = std::move(modes);
 }

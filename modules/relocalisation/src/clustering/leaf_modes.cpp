@@ -89,6 +89,8 @@ void LeafModes::load(std::istream& stream) {
   const auto blocks = read_array<std::int32_t>(stream, "mode block references", num_blocks, num_blocks);
   const auto pool = read_array<Mode>(stream, "modes", 0, num_blocks * kModeBlockSize);
   const auto num_used = static_cast<std::int64_t>(pool.size() / kModeBlockSize);
+  std::vector<bool> taken(static_cast<std::size_t>(num_used), false);
+  std::int64_t num_taken = 0;
   for (std::uint64_t leaf = 0; leaf < num_leaves; ++leaf) {
     if (num_modes[leaf] > static_cast<std::uint32_t>(settings_.max_modes) || num_owned[leaf] > static_cast<std::uint32_t>(max_blocks) ||
         num_modes[leaf] > num_owned[leaf] * kModeBlockSize) {
@@ -99,7 +101,15 @@ void LeafModes::load(std::istream& stream) {
       const std::int32_t block = blocks[leaf * static_cast<std::uint64_t>(max_blocks) + k];
       if (block < 0 || block >= num_used)
         throw FileError("the saved scene refers to mode block " + std::to_string(block) + ", there are " + std::to_string(num_used));
+      if (taken[static_cast<std::size_t>(block)])
+        throw FileError("the saved scene gives mode block " + std::to_string(block) + " to two leaves");
+      taken[static_cast<std::size_t>(block)] = true;
+      ++num_taken;
     }
+  }
+  if (num_taken * kModeBlockSize != static_cast<std::int64_t>(pool.size())) {
+    throw FileError("the saved scene has " + std::to_string(pool.size()) + " modes, expected " + std::to_string(num_taken) + " blocks of " +
+                    std::to_string(kModeBlockSize));
   }
   cursor_ = cursor % static_cast<std::uint32_t>(num_leaves_);
   num_modes_.assign(Span<const std::uint32_t>(num_modes));

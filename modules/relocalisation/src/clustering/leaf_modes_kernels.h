@@ -105,8 +105,11 @@ struct CommitModes {
     const auto num_modes = static_cast<int>(num_new_modes[slot]);
     std::uint32_t next_block = *num_used_blocks + first_new_block[slot];
     std::uint32_t& owned = leaf_modes.num_owned_blocks[leaf];
-    while (static_cast<int>(owned) < leaf_modes.modes.blocks_for(num_modes))
-      leaf_modes.modes.own(leaf, static_cast<int>(owned++), next_block++);
+    while (static_cast<int>(owned) < leaf_modes.modes.blocks_for(num_modes)) {
+      const int block = static_cast<int>(owned++);
+      leaf_modes.modes.own(leaf, block, next_block++);
+      for (int k = 0; k < kModeBlockSize; ++k) leaf_modes.modes.at(leaf, block * kModeBlockSize + k) = Mode{};  // saved even if unused
+    }
     for (int k = 0; k < num_modes; ++k)
       leaf_modes.modes.at(leaf, k) = new_modes[slot * static_cast<std::size_t>(max_modes) + static_cast<std::size_t>(k)];
     leaf_modes.num_modes[leaf] = num_new_modes[slot];

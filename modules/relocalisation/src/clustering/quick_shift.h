@@ -26,7 +26,7 @@ struct QuickShiftScratch {
   std::int32_t size[kMaxReservoir];     ///< of the cluster whose root this is; negative once the cluster has a rank
 };
 
-/// exp(-t) for t in [0, 4.5], to 0.5 %: the eighth power of a short series, in operations that every device rounds alike.
+/// exp(-t) for t in [0, 4.5], to 0.7 %: the eighth power of a short series, in operations that every device rounds alike.
 FOOTHOLD_HD FOOTHOLD_INLINE float exp_minus(float t) {
   const float s = -0.125F * t;
   const float e = 1.0F + s * (1.0F + s * (0.5F + s * (1.0F / 6.0F + s * (1.0F / 24.0F))));

@@ -35,6 +35,7 @@ LeafReservoirs::LeafReservoirs(const Context& context, int num_leaves, const Res
 
 void LeafReservoirs::clear() {
   num_frames_ = 0;
+  origin_world_.setZero();
   blocks_.clear();
   num_seen_.clear_to_zero();
   num_changed_.clear_to_zero();
@@ -105,13 +106,23 @@ void LeafReservoirs::load(std::istream& stream) {
   const auto blocks = read_array<std::int32_t>(stream, "block references", num_blocks, num_blocks);
   const auto pool = read_array<ReservoirBlock>(stream, "reservoir blocks", 0, num_blocks);
   const auto num_used = static_cast<std::int64_t>(pool.size());
+  std::vector<bool> owned(pool.size(), false);
+  std::uint64_t num_owned = 0;
   for (std::uint64_t leaf = 0; leaf < num_leaves; ++leaf) {
     const int stored = static_cast<int>(std::min<std::uint64_t>(num_seen[leaf], static_cast<std::uint64_t>(settings_.capacity)));
     for (int k = 0; k < reservoir_blocks_for(stored); ++k) {
       const std::int32_t block = blocks[leaf * static_cast<std::uint64_t>(max_blocks) + static_cast<std::uint64_t>(k)];
       if (block < 0 || block >= num_used)
         throw FileError("the saved scene refers to reservoir block " + std::to_string(block) + ", there are " + std::to_string(num_used));
+      if (owned[static_cast<std::size_t>(block)])
+        throw FileError("the saved scene gives reservoir block " + std::to_string(block) + " to two leaves");
+      owned[static_cast<std::size_t>(block)] = true;
+      ++num_owned;
     }
+  }
+  if (num_owned != pool.size()) {
+    throw FileError("the saved scene has " + std::to_string(pool.size()) + " reservoir blocks, of which leaves own " +
+                    std::to_string(num_owned));
   }
   num_frames_ = num_frames;
   origin_world_ = origin;

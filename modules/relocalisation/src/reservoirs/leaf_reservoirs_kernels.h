@@ -129,6 +129,7 @@ struct InsertRun {
         if (position >= reservoirs.capacity) continue;
       } else if (reservoir_blocks_for(position + 1) > owned) {
         reservoirs.blocks.own(leaf, owned++, next_block++);
+        reservoirs.block_of(leaf, position) = {};  // so that saved scenes hold nothing of what the memory held before
       }
       reservoirs.set_point(leaf, position, points[(keys[k] & 0xffffffffU) % num_examples]);
       ++written;
