@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "device_choice.h"
 #include "messages.h"
 #include "registration.h"
 #include "runtime.h"

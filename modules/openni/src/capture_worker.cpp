@@ -3,14 +3,13 @@
 #include "capture_worker.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <utility>
 
 #include "camera_device.h"
+#include "device_choice.h"
 #include "frame_pairer.h"
 #include "messages.h"
 #include "runtime.h"
-#include "usb.h"
 
 namespace foothold::capture {
 namespace {
@@ -23,27 +22,27 @@ constexpr int kImagesBeforeDistrust =
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 int ms_since(Clock::time_point start) { return static_cast<int>(1e3 * seconds_since(start)); }
 
-bool is_index(const std::string& device) {
-  return !device.empty() && device.size() < 4 && device.find_first_not_of("0123456789") == std::string::npos;
-}
-
-/// The camera that the settings ask for.
-std::string choose_device(const std::string& wanted, const std::vector<OpenNIDeviceInfo>& devices) {
-  if (is_recording(wanted)) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(wanted, error)) throw FileError(wanted + ": no such recording");
-    return std::filesystem::absolute(wanted).string();
-  }
-  if (devices.empty()) throw DeviceError(no_device_advice(find_usb_cameras()));
-  if (wanted.empty()) return devices.front().uri;
-  if (is_index(wanted)) {
-    const std::size_t index = std::stoul(wanted);
-    if (index < devices.size()) return devices[index].uri;
-  }
-  for (const OpenNIDeviceInfo& device : devices) {
-    if (device.uri == wanted) return device.uri;
-  }
-  throw DeviceError(unknown_device_message(wanted, devices));
+/// Tells the worker about cameras that come and go.
+HotplugListener::Callbacks hotplug_callbacks(const std::shared_ptr<CaptureState>& state) {
+  HotplugListener::Callbacks callbacks;
+  callbacks.connected = [state](const std::string& uri) {
+    const std::lock_guard<std::mutex> lock(state->mutex);
+    state->newcomers.push_back(uri);
+  };
+  callbacks.disconnected = [state](const std::string& uri) {
+    const std::lock_guard<std::mutex> lock(state->mutex);
+    state->newcomers.erase(std::remove(state->newcomers.begin(), state->newcomers.end(), uri), state->newcomers.end());
+    if (uri != state->status.device.uri) return;
+    state->disconnected = true;
+    state->for_worker.notify_one();
+  };
+  callbacks.ended = [state](const std::string& uri) {
+    const std::lock_guard<std::mutex> lock(state->mutex);
+    if (uri != state->status.device.uri) return;
+    state->recording_ended = true;
+    state->for_worker.notify_one();
+  };
+  return callbacks;
 }
 
 /// What ended a stretch of streaming.
@@ -59,7 +58,8 @@ class Worker {
 
   std::unique_ptr<CameraDevice> open(const std::string& uri);
   std::unique_ptr<CameraDevice> reopen(const Runtime& runtime);
-  std::string find_again(const Runtime& runtime);
+  std::string look_for_camera(const Runtime& runtime);
+  void stream_and_recover(std::unique_ptr<CameraDevice> camera, const Runtime& runtime);
   Ending stream(CameraDevice& camera);
   void collect(CameraDevice& camera, Pairer& pairer);
   void distrust_stamps(Pairer& pairer);
@@ -116,29 +116,18 @@ std::unique_ptr<CameraDevice> Worker::open(const std::string& uri) {
   return camera;
 }
 
-/// The URI of the lost camera, wherever it has been plugged in again; empty if it is not there.
-///
-/// Another camera of the same model counts only if it has just been plugged in: one that was there before may be somebody else's.
-std::string Worker::find_again(const Runtime& runtime) {
+std::string Worker::look_for_camera(const Runtime& runtime) {
   state_->set_activity("looking for the camera");
   const std::vector<OpenNIDeviceInfo> devices = runtime.devices();
   const std::lock_guard<std::mutex> lock(state_->mutex);
-  std::string found;
-  for (const OpenNIDeviceInfo& device : devices) {
-    if (device.uri == device_.uri) return device.uri;
-    const bool same_model =
-        device.vendor == device_.vendor && device.name == device_.name && device.usb_product_id == device_.usb_product_id;
-    const bool is_new = std::find(state_->newcomers.begin(), state_->newcomers.end(), device.uri) != state_->newcomers.end();
-    if (is_new && (same_model || settings_.device.empty())) found = device.uri;
-  }
-  return found;
+  return find_again(device_, devices, state_->newcomers, settings_.device.empty());
 }
 
 /// Tries until the camera is open again. @return Null if the source is to stop.
 std::unique_ptr<CameraDevice> Worker::reopen(const Runtime& runtime) {
   const bool nothing = false;
   do {
-    const std::string uri = find_again(runtime);
+    const std::string uri = look_for_camera(runtime);
     if (uri.empty()) {
       state_->set_state(OpenNIState::kWaitingForDevice, unplugged_message(device_.uri));
       continue;
@@ -235,44 +224,15 @@ Ending Worker::stream(CameraDevice& camera) {
   return Ending::kStop;
 }
 
-void Worker::run() {
-  state_->set_activity("loading OpenNI2's drivers");
-  const Runtime runtime;
-  HotplugListener::Callbacks callbacks;
-  const std::shared_ptr<CaptureState> state = state_;
-  callbacks.connected = [state](const std::string& uri) {
-    const std::lock_guard<std::mutex> lock(state->mutex);
-    state->newcomers.push_back(uri);
-  };
-  callbacks.disconnected = [state](const std::string& uri) {
-    const std::lock_guard<std::mutex> lock(state->mutex);
-    state->newcomers.erase(std::remove(state->newcomers.begin(), state->newcomers.end(), uri), state->newcomers.end());
-    if (uri != state->status.device.uri) return;
-    state->disconnected = true;
-    state->for_worker.notify_one();
-  };
-  callbacks.ended = [state](const std::string& uri) {
-    const std::lock_guard<std::mutex> lock(state->mutex);
-    if (uri != state->status.device.uri) return;
-    state->recording_ended = true;
-    state->for_worker.notify_one();
-  };
-  const HotplugListener listener(std::move(callbacks));
-
-  const bool recording = is_recording(settings_.device);
-  std::unique_ptr<CameraDevice> camera = open(choose_device(settings_.device, runtime.devices()));
-  {
-    const std::lock_guard<std::mutex> lock(state_->mutex);
-    state_->opened = true;
-    state_->for_reader.notify_all();
-  }
+/// Streams until the source stops, and opens the camera again whenever it has gone. @throws FileError for a recording without images.
+void Worker::stream_and_recover(std::unique_ptr<CameraDevice> camera, const Runtime& runtime) {
   while (camera != nullptr) {
     const Ending ending = stream(*camera);
-    if (ending == Ending::kStop) break;
-    if (recording) {
+    if (ending == Ending::kStop) return;
+    if (is_recording(settings_.device)) {
       if (num_pairs_ == 0) throw FileError(recording_message(settings_.device, "no images came out of it"));
       state_->set_state(OpenNIState::kEnded, "");
-      break;
+      return;
     }
     if (ending == Ending::kUnplugged) state_->set_state(OpenNIState::kWaitingForDevice, unplugged_message(device_.uri));
     if (ending == Ending::kSilent) {
@@ -282,7 +242,19 @@ void Worker::run() {
     camera.reset();
     camera = reopen(runtime);
   }
-  camera.reset();
+}
+
+void Worker::run() {
+  state_->set_activity("loading OpenNI2's drivers");
+  const Runtime runtime;
+  const HotplugListener listener(hotplug_callbacks(state_));
+  std::unique_ptr<CameraDevice> camera = open(choose_device(settings_.device, runtime.devices()));
+  {
+    const std::lock_guard<std::mutex> lock(state_->mutex);
+    state_->opened = true;
+    state_->for_reader.notify_all();
+  }
+  stream_and_recover(std::move(camera), runtime);
   state_->set_activity("shutting OpenNI2 down");
 }
 

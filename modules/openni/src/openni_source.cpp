@@ -8,6 +8,7 @@
 
 #include "capture_state.h"
 #include "capture_worker.h"
+#include "device_choice.h"
 #include "messages.h"
 #include "runtime.h"
 #include "usb.h"

@@ -83,11 +83,6 @@ std::string openni_error() {
   return line;
 }
 
-bool is_recording(const std::string& device) {
-  const std::string ending = ".oni";
-  return device.size() > ending.size() && device.compare(device.size() - ending.size(), ending.size(), ending) == 0;
-}
-
 OpenNIDeviceInfo to_info(const openni::DeviceInfo& info) {
   OpenNIDeviceInfo result;
   result.uri = info.getUri();

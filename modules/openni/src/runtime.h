@@ -32,9 +32,6 @@ class Runtime {
 /// OpenNI2's own words about this thread's last error, on one line.
 std::string openni_error();
 
-/// True if a device is the path of an .oni recording.
-bool is_recording(const std::string& device);
-
 OpenNIDeviceInfo to_info(const openni::DeviceInfo& info);
 
 /// The modes of a sensor; empty if the device has no such sensor.
