@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "reservoirs/leaf_reservoirs.h"
+
+#include <cstring>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "foothold/base/error.h"
+#include "support/catch.h"
+#include "support/random_seed.h"
+
+namespace foothold {
+namespace {
+
+Context context_of(int num_threads) {
+  ContextOptions options;
+  options.num_threads = num_threads;
+  return Context(options);
+}
+
+ReservoirSettings small_reservoirs(int capacity) {
+  ReservoirSettings settings;
+  settings.capacity = capacity;
+  return settings;
+}
+
+/// A point that carries its number.
+ReservoirPoint numbered_point(std::uint32_t number) {
+  return {static_cast<std::int16_t>(number & 0x7fffU), static_cast<std::int16_t>((number >> 15U) & 0x7fffU), 7,
+          static_cast<std::uint16_t>(number * 31U)};
+}
+std::uint32_t number_of(const ReservoirPoint& point) {
+  return static_cast<std::uint32_t>(point.x_mm) | static_cast<std::uint32_t>(point.y_mm) << 15U;
+}
+
+/// Examples numbered from `first`, each in one random leaf per tree; every tenth has none.
+TrainingExamples random_examples(Random& random, std::uint32_t first, std::size_t count, int num_trees, int num_leaves) {
+  TrainingExamples examples(MemoryKind::kHost);
+  examples.pixels.resize(count);
+  examples.points.resize(count);
+  examples.leaves.resize(count * static_cast<std::size_t>(num_trees));
+  for (std::size_t i = 0; i < count; ++i) {
+    examples.pixels[i] = {0, 0, 1.0F};
+    examples.points[i] = numbered_point(first + static_cast<std::uint32_t>(i));
+  }
+  const auto leaves_per_tree = static_cast<std::uint32_t>(num_leaves / num_trees);
+  for (std::size_t i = 0; i < examples.leaves.size(); ++i) {
+    const auto tree = static_cast<std::uint32_t>(i / count);
+    examples.leaves[i] =
+        i % count % 10 == 9 ? static_cast<std::uint32_t>(num_leaves) : tree * leaves_per_tree + random.below(leaves_per_tree);
+  }
+  return examples;
+}
+
+std::vector<ReservoirPoint> points_of(const LeafReservoirsView& view, std::uint32_t leaf) {
+  std::vector<ReservoirPoint> points;
+  for (int i = 0; i < view.num_stored(leaf); ++i) points.push_back(view.point(leaf, i));
+  return points;
+}
+
+bool same(const ReservoirPoint& a, const ReservoirPoint& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
+
+void require_same(LeafReservoirs& a, LeafReservoirs& b) {
+  const LeafReservoirsView va = a.view();
+  const LeafReservoirsView vb = b.view();
+  REQUIRE(va.num_leaves == vb.num_leaves);
+  for (int leaf = 0; leaf < va.num_leaves; ++leaf) {
+    const auto l = static_cast<std::uint32_t>(leaf);
+    REQUIRE(va.num_seen[leaf] == vb.num_seen[leaf]);
+    REQUIRE(va.num_changed[leaf] == vb.num_changed[leaf]);
+    bool equal = true;
+    for (int i = 0; i < va.num_stored(l); ++i) equal = equal && same(va.point(l, i), vb.point(l, i));
+    REQUIRE(equal);
+  }
+}
+
+TEST_CASE("LeafReservoirs: below its capacity a leaf keeps every point, in order") {
+  Random random = test::test_random();
+  constexpr int kLeaves = 60;
+  const Context context = context_of(1);
+  LeafReservoirs reservoirs(context, kLeaves, small_reservoirs(1024), 42);
+  std::vector<std::vector<ReservoirPoint>> expected(kLeaves);
+  for (std::uint32_t frame = 0; frame < 4; ++frame) {
+    const TrainingExamples examples = random_examples(random, 1000 * frame, 300, 3, kLeaves);
+    for (std::size_t i = 0; i < examples.leaves.size(); ++i) {
+      if (examples.leaves[i] < kLeaves) expected[examples.leaves[i]].push_back(examples.points[i % 300]);
+    }
+    reservoirs.insert(context, examples);
+    for (std::uint32_t leaf = 0; leaf < kLeaves; ++leaf) {
+      const std::vector<ReservoirPoint> found = points_of(reservoirs.view(), leaf);
+      REQUIRE(found.size() == expected[leaf].size());
+      REQUIRE(reservoirs.view().num_seen[leaf] == found.size());
+      REQUIRE(reservoirs.view().num_changed[leaf] == found.size());
+      for (std::size_t i = 0; i < found.size(); ++i) REQUIRE(same(found[i], expected[leaf][i]));
+    }
+  }
+}
+
+TEST_CASE("LeafReservoirs: stores min(seen, capacity) points, each offered to that leaf and none twice") {
+  Random random = test::test_random();
+  constexpr int kLeaves = 20;
+  constexpr int kCapacity = 40;
+  const Context context = context_of(1);
+  LeafReservoirs reservoirs(context, kLeaves, small_reservoirs(kCapacity), 42);
+  std::vector<std::set<std::uint32_t>> offered(kLeaves);
+  for (std::uint32_t frame = 0; frame < 8; ++frame) {
+    const TrainingExamples examples = random_examples(random, 1000 * frame, 200, 2, kLeaves);
+    for (std::size_t i = 0; i < examples.leaves.size(); ++i) {
+      if (examples.leaves[i] < kLeaves) offered[examples.leaves[i]].insert(number_of(examples.points[i % 200]));
+    }
+    reservoirs.insert(context, examples);
+    for (std::uint32_t leaf = 0; leaf < kLeaves; ++leaf) {
+      REQUIRE(reservoirs.view().num_seen[leaf] == offered[leaf].size());
+      std::set<std::uint32_t> stored;
+      for (const ReservoirPoint& point : points_of(reservoirs.view(), leaf)) {
+        REQUIRE(offered[leaf].count(number_of(point)) == 1);
+        REQUIRE(point.z_mm == 7);
+        REQUIRE(point.rgb565 == static_cast<std::uint16_t>(number_of(point) * 31U));
+        stored.insert(number_of(point));
+      }
+      REQUIRE(stored.size() == std::min<std::size_t>(offered[leaf].size(), kCapacity));
+    }
+  }
+}
+
+TEST_CASE("LeafReservoirs: every point offered is kept equally likely") {
+  constexpr int kLeaves = 4000;
+  constexpr std::uint32_t kOffered = 96;
+  constexpr int kCapacity = 16;
+  const Context context = context_of(2);
+  LeafReservoirs reservoirs(context, kLeaves, small_reservoirs(kCapacity), 42);
+  // Each frame offers one point to each leaf; points carry the number of their frame.
+  for (std::uint32_t k = 0; k < kOffered; ++k) {
+    TrainingExamples examples(MemoryKind::kHost);
+    examples.points.resize(kLeaves);
+    examples.leaves.resize(kLeaves);
+    for (std::uint32_t i = 0; i < kLeaves; ++i) {
+      examples.points[i] = numbered_point(k);
+      examples.leaves[i] = i;
+    }
+    reservoirs.insert(context, examples);
+  }
+  std::vector<double> kept(kOffered);
+  for (std::uint32_t leaf = 0; leaf < kLeaves; ++leaf) {
+    for (const ReservoirPoint& point : points_of(reservoirs.view(), leaf)) kept[number_of(point)] += 1.0;
+  }
+  const double p = static_cast<double>(kCapacity) / kOffered;
+  double chi2 = 0.0;
+  for (const double count : kept) chi2 += (count - kLeaves * p) * (count - kLeaves * p) / (kLeaves * p * (1.0 - p));
+  // Chi-square with 95 degrees of freedom: mean 95, standard deviation 13.8. Five of them either way.
+  REQUIRE(chi2 < 95.0 + 5 * 13.8);
+  REQUIRE(chi2 > 95.0 - 5 * 13.8);
+}
+
+TEST_CASE("LeafReservoirs: the same whatever the number of threads") {
+  constexpr int kLeaves = 500;
+  std::vector<LeafReservoirs> all;
+  for (const int num_threads : {1, 2, 4}) {
+    Random random = test::test_random();
+    const Context context = context_of(num_threads);
+    all.emplace_back(context, kLeaves, small_reservoirs(50), 42);
+    for (std::uint32_t frame = 0; frame < 6; ++frame) all.back().insert(context, random_examples(random, 5000 * frame, 5000, 5, kLeaves));
+  }
+  REQUIRE(all[0].state_bytes() == all[1].state_bytes());
+  REQUIRE(all[0].state_bytes() == all[2].state_bytes());
+  require_same(all[0], all[1]);
+  require_same(all[0], all[2]);
+}
+
+/// A frame of one depth and one colour.
+struct FlatFrame {
+  explicit FlatFrame(float depth_m, int width = 64, int height = 48)
+      : depth(width, height, depth_m), colour(width, height, {80, 160, 240}) {
+    frame.depth = depth.view();
+    frame.colour = colour_view(colour);
+    frame.calibration.depth = frame.calibration.colour = {60.0F, 60.0F, 31.5F, 23.5F};
+  }
+  Image<float> depth;
+  Image<Rgb8> colour;
+  Frame frame;
+};
+
+TEST_CASE("LeafReservoirs::sample: one pixel of each grid cell, with its world point") {
+  const Context context = context_of(1);
+  FlatFrame flat(2.0F);
+  flat.depth(0, 0) = 0.0F;
+  SE3 world_from_camera = se3_exp((Tangent6() << 0.3F, -0.5F, 0.2F, 0.0F, 0.0F, 0.0F).finished());
+  world_from_camera.translation = {100.0F, -200.0F, 50.0F};  // far from the world's origin
+  FeatureImage image(context);
+  image.compute(context, flat.frame, 4);
+  for (const bool jitter : {false, true}) {
+    ReservoirSettings settings;
+    settings.jitter = jitter;
+    LeafReservoirs reservoirs(context, 10, settings, 42);
+    TrainingExamples examples(MemoryKind::kHost);
+    reservoirs.sample(context, flat.frame, image, world_from_camera, examples);
+    REQUIRE(examples.pixels.size() == 8 * 6);
+    REQUIRE(reservoirs.origin_world() == world_from_camera.translation);
+    int num_moved = 0;
+    for (int i = 0; i < 48; ++i) {
+      const SampledPixel& pixel = examples.pixels[static_cast<std::size_t>(i)];
+      REQUIRE(pixel.u / 8 == i % 8);
+      REQUIRE(pixel.v / 8 == i / 8);
+      num_moved += pixel.u % 8 != 0 || pixel.v % 8 != 0 ? 1 : 0;
+      if (pixel.u == 0 && pixel.v == 0) {
+        REQUIRE(pixel.depth_m == 0.0F);
+        continue;
+      }
+      REQUIRE(pixel.depth_m == 2.0F);
+      const Eigen::Vector3d point_camera((pixel.u - 31.5) / 60.0 * 2.0, (pixel.v - 23.5) / 60.0 * 2.0, 2.0);
+      const Eigen::Vector3d expected_mm = world_from_camera.rotation.cast<double>() * point_camera * 1000.0;
+      const ReservoirPoint& point = examples.points[static_cast<std::size_t>(i)];
+      constexpr double kRounding = 0.51;  // to millimetres, and a little for single precision
+      REQUIRE((Eigen::Vector3d(point.x_mm, point.y_mm, point.z_mm) - expected_mm).cwiseAbs().maxCoeff() < kRounding);
+      REQUIRE(point.rgb565 == ((80 >> 3) << 11 | (160 >> 2) << 5 | 240 >> 3));
+    }
+    REQUIRE((num_moved > 0) == jitter);
+  }
+}
+
+TEST_CASE("LeafReservoirs::sample: points further than 32 m from the origin are dropped") {
+  const Context context = context_of(1);
+  LeafReservoirs reservoirs(context, 10, ReservoirSettings{}, 42);
+  TrainingExamples examples(MemoryKind::kHost);
+  FeatureImage image(context);
+  const auto num_with_depth = [&](float depth_m, float z_m) {
+    const FlatFrame flat(depth_m);
+    SE3 world_from_camera;
+    world_from_camera.translation.z() = z_m;
+    image.compute(context, flat.frame, 4);
+    reservoirs.sample(context, flat.frame, image, world_from_camera, examples);
+    int count = 0;
+    for (const SampledPixel& pixel : examples.pixels) count += pixel.depth_m > 0.0F ? 1 : 0;
+    return count;
+  };
+  REQUIRE(num_with_depth(2.0F, 5.0F) == 48);    // the origin is here
+  REQUIRE(num_with_depth(20.0F, 5.0F) == 48);   // 20 m from it
+  REQUIRE(num_with_depth(20.0F, 17.0F) == 48);  // 32 m
+  REQUIRE(num_with_depth(20.0F, 18.0F) == 0);   // 33 m
+  REQUIRE(num_with_depth(20.0F, -60.0F) == 0);
+  REQUIRE(num_with_depth(1e3F, 5.0F) == 0);
+}
+
+TEST_CASE("LeafReservoirs: clear forgets everything") {
+  Random random = test::test_random();
+  const Context context = context_of(1);
+  LeafReservoirs reservoirs(context, 100, small_reservoirs(32), 42);
+  const std::size_t empty = reservoirs.state_bytes();
+  LeafReservoirs fresh(context, 100, small_reservoirs(32), 42);
+  reservoirs.insert(context, random_examples(random, 0, 1000, 5, 100));
+  REQUIRE(reservoirs.state_bytes() > empty);
+  reservoirs.clear();
+  REQUIRE(reservoirs.state_bytes() == empty);
+  REQUIRE(reservoirs.num_frames() == 0);
+  require_same(reservoirs, fresh);
+}
+
+std::string saved(const LeafReservoirs& reservoirs) {
+  std::ostringstream stream;
+  reservoirs.save(stream);
+  return stream.str();
+}
+
+TEST_CASE("LeafReservoirs: load restores what save wrote, and both go on alike") {
+  Random random = test::test_random();
+  const Context context = context_of(1);
+  LeafReservoirs reservoirs(context, 100, small_reservoirs(32), 42);
+  reservoirs.insert(context, random_examples(random, 0, 1000, 5, 100));
+  const std::string bytes = saved(reservoirs);
+  LeafReservoirs copy(context, 100, small_reservoirs(32), 42);
+  std::istringstream stream(bytes);
+  copy.load(stream);
+  REQUIRE((saved(copy) == bytes));
+  require_same(reservoirs, copy);
+  const TrainingExamples more = random_examples(random, 5000, 1000, 5, 100);
+  reservoirs.insert(context, more);
+  copy.insert(context, more);
+  require_same(reservoirs, copy);
+  REQUIRE((saved(copy) == saved(reservoirs)));
+}
+
+TEST_CASE("LeafReservoirs: refuses damaged data and keeps what it had") {
+  Random random = test::test_random();
+  const Context context = context_of(1);
+  LeafReservoirs reservoirs(context, 20, small_reservoirs(32), 42);
+  reservoirs.insert(context, random_examples(random, 0, 150, 2, 20));
+  const std::string good = saved(reservoirs);
+  const auto require_refused = [&](const std::string& bytes) {
+    std::istringstream stream(bytes);
+    REQUIRE_THROWS_AS(reservoirs.load(stream), FileError);
+    REQUIRE((saved(reservoirs) == good));
+  };
+  for (std::size_t length = 0; length < good.size(); length += 1 + length / 50) require_refused(good.substr(0, length));
+  require_refused(good.substr(0, good.size() - 1));
+  // frame count 8, origin 12, then arrays of 20 counts, 20 changes, 40 block references, and blocks, each after their number.
+  const auto with_value = [&](std::size_t offset, auto value) {
+    std::string bytes = good;
+    std::memcpy(&bytes[offset], &value, sizeof(value));
+    return bytes;
+  };
+  constexpr std::size_t kCounts = 20;
+  constexpr std::size_t kChanges = kCounts + 8 + 80;
+  constexpr std::size_t kBlocks = kChanges + 8 + 80;
+  constexpr std::size_t kPool = kBlocks + 8 + 160;
+  require_refused(with_value(8, std::nanf("")));
+  for (const std::size_t offset : {kCounts, kChanges, kBlocks, kPool}) {
+    require_refused(with_value(offset, std::uint64_t{3}));
+    require_refused(with_value(offset, ~std::uint64_t{0}));
+  }
+  require_refused(with_value(kBlocks + 8, std::int32_t{-1}));
+  require_refused(with_value(kBlocks + 8, std::int32_t{1000}));
+  // Two leaves must not share a block, nor blocks be left over that later growth would run out of.
+  std::int32_t other = 0;
+  std::memcpy(&other, &good[kBlocks + 8 + 8], sizeof(other));
+  require_refused(with_value(kBlocks + 8, other));
+  require_refused(with_value(kCounts + 8, std::uint32_t{0}));
+}
+
+}  // namespace
+}  // namespace foothold
