@@ -45,6 +45,7 @@ struct IcpStep {
   int model_height;
   float outlier_m;
   float noise_growth;
+  float outlier_growth;
   float min_depth_m;
   float max_depth_m;
 };
@@ -88,7 +89,8 @@ struct SumChunk {
     float y[kWidth];
     float z[kWidth];
     float valid[kWidth];  ///< 1 where the live image has depth
-    float scale[kWidth];  ///< growth of the noise with depth
+    float scale[kWidth];  ///< growth of the outlier distance with depth
+    float noise[kWidth];  ///< growth of the noise with depth
     float u[kWidth];      ///< of the rendering, a whole number
     float v[kWidth];
     int pixel[kWidth];  ///< -1 outside the rendering
@@ -141,7 +143,8 @@ struct SumChunk {
       points.y[i] = qy;
       points.z[i] = qz;
       points.valid[i] = valid ? 1.0F : 0.0F;
-      points.scale[i] = 1.0F + step.noise_growth * z * z;
+      points.scale[i] = 1.0F + step.outlier_growth * z * z;
+      points.noise[i] = 1.0F + step.noise_growth * z * z;
       points.u[i] = static_cast<float>(column);
       points.v[i] = static_cast<float>(line);
       points.pixel[i] = inside ? line * step.model_width + column : -1;
@@ -169,7 +172,7 @@ struct SumChunk {
       // A point far along the surface from its partner is as wrong as one far off it: occlusion edges.
       const bool partner = has_normal & (inside > 0.0F) & (dx * dx + dy * dy + dz * dz < kMaxPartnerRatio * limit * limit);
       const float w = partner ? inside * inside : 0.0F;
-      weight[i] = w * inverse_scale * inverse_scale;
+      weight[i] = w / (points.noise[i] * points.noise[i]);
       residual[i] = partner ? r : 0.0F;
       jacobian[0][i] = points.y[i] * nz[i] - points.z[i] * ny[i];
       jacobian[1][i] = points.z[i] * nx[i] - points.x[i] * nz[i];
@@ -296,8 +299,8 @@ IcpState IcpOps<kDevice>::align(const Context& context, const IcpSettings& setti
     const float outlier_m = settings.finest_outlier_m * std::pow(settings.coarsest_outlier_m / settings.finest_outlier_m, t);
     const int num_steps =
         settings.finest_steps + static_cast<int>(std::lround(t * static_cast<float>(settings.coarsest_steps - settings.finest_steps)));
-    const IcpStep step{live,      model.pixels.data(),   model.camera.intrinsics, model.camera.width,  model.camera.height,
-                       outlier_m, settings.noise_growth, settings.min_depth_m,    settings.max_depth_m};
+    const IcpStep step{live,      model.pixels.data(),   model.camera.intrinsics, model.camera.width,   model.camera.height,
+                       outlier_m, settings.noise_growth, settings.outlier_growth, settings.min_depth_m, settings.max_depth_m};
     const int num_groups = (live.depth.width + kWidth - 1) / kWidth * live.depth.height;
     const int num_chunks = (num_groups + SumChunk<kWidth>::kGroupsPerChunk - 1) / SumChunk<kWidth>::kGroupsPerChunk;
     scratch.chunk_sums.resize(static_cast<std::size_t>(num_chunks) * kNumSums);

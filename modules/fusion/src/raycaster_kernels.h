@@ -11,8 +11,13 @@
 
 namespace foothold {
 
+/// Pixels that share a depth range; small, so that the range is tight.
+inline constexpr int kRangeTilePx = 4;
+/// Pixels rendered by one team.
 inline constexpr int kRayTileWidth = 16;
 inline constexpr int kRayTileHeight = 8;
+/// Voxels along each side of an eighth of a block, the unit of empty space.
+inline constexpr int kOctantSide = kBlockSide / 2;
 
 FOOTHOLD_HD inline std::int32_t float_bits(float value) {
   std::int32_t bits = 0;
@@ -31,7 +36,8 @@ struct RayCamera {
   int width;
   int height;
   SE3 world_from_camera;
-  int num_tile_columns;
+  int num_tile_columns;   ///< of rendering
+  int num_range_columns;  ///< of depth ranges
 };
 
 struct ResetRanges {
@@ -53,17 +59,24 @@ struct ProjectBlockRange {
   std::int32_t* far;
 
   FOOTHOLD_HD void operator()(std::size_t index) const {
-    if (volume.block_has_surface[index] == 0) return;
+    const unsigned octants = volume.surface_octants[index];
+    if (octants == 0) return;
     const BlockCoordinates block = unpack_key(volume.block_keys[index]);
-    const float side_m = volume.voxel_size_m * static_cast<float>(kBlockSide);
-    const Eigen::Vector3f centre_world((static_cast<float>(block.x) + 0.5F) * side_m, (static_cast<float>(block.y) + 0.5F) * side_m,
-                                       (static_cast<float>(block.z) + 0.5F) * side_m);
-    const BlockExtent extent =
-        bound_projection(camera_from_world * centre_world, 0.8661F * side_m, camera.intrinsics, camera.width, camera.height);
+    const float side_m = volume.voxel_size_m * static_cast<float>(kOctantSide);
+    for (int octant = 0; octant < 8; ++octant) {
+      if ((octants >> static_cast<unsigned>(octant) & 1U) == 0) continue;
+      const Eigen::Vector3f centre_world((static_cast<float>(2 * block.x + (octant & 1)) + 0.5F) * side_m,
+                                         (static_cast<float>(2 * block.y + (octant >> 1 & 1)) + 0.5F) * side_m,
+                                         (static_cast<float>(2 * block.z + (octant >> 2)) + 0.5F) * side_m);
+      widen(bound_projection(camera_from_world * centre_world, kHalfDiagonal * side_m, camera.intrinsics, camera.width, camera.height));
+    }
+  }
+
+  FOOTHOLD_HD void widen(const BlockExtent& extent) const {
     if (!extent.visible()) return;
-    for (int v = extent.v_min / kRayTileHeight; v <= extent.v_max / kRayTileHeight; ++v) {
-      for (int u = extent.u_min / kRayTileWidth; u <= extent.u_max / kRayTileWidth; ++u) {
-        const int tile = v * camera.num_tile_columns + u;
+    for (int v = extent.v_min / kRangeTilePx; v <= extent.v_max / kRangeTilePx; ++v) {
+      for (int u = extent.u_min / kRangeTilePx; u <= extent.u_max / kRangeTilePx; ++u) {
+        const int tile = v * camera.num_range_columns + u;
         atomic_lower(near + tile, float_bits(extent.z_near));
         atomic_raise(far + tile, float_bits(extent.z_far));
       }
@@ -78,12 +91,12 @@ struct Ray {
   float inverse[3];       ///< of the direction
   float depth_per_metre;  ///< advance in depth for each metre along the ray
 
-  /// The depth at which the ray leaves the block containing (x, y, z).
-  FOOTHOLD_HD float exit_depth(const BlockCoordinates& block) const {
-    const int corner[3] = {block.x, block.y, block.z};
+  /// The depth at which the ray leaves an octant, given in octants.
+  FOOTHOLD_HD float exit_depth(const BlockCoordinates& octant) const {
+    const int corner[3] = {octant.x, octant.y, octant.z};
     float exit = FLT_MAX;
     for (int axis = 0; axis < 3; ++axis) {
-      const float plane = static_cast<float>((corner[axis] + (direction[axis] > 0.0F ? 1 : 0)) * kBlockSide);
+      const float plane = static_cast<float>((corner[axis] + (direction[axis] > 0.0F ? 1 : 0)) * kOctantSide);
       const float depth = (plane - origin[axis]) * inverse[axis];
       exit = depth < exit ? depth : exit;
     }
@@ -112,9 +125,9 @@ class RayMarcher {
       const float x = ray.origin[0] + ray.direction[0] * depth;
       const float y = ray.origin[1] + ray.direction[1] * depth;
       const float z = ray.origin[2] + ray.direction[2] * depth;
-      if (!enter_block(x, y, z)) {
+      if (!enter_octant(x, y, z)) {
         outside = false;
-        const float exit = ray.exit_depth(block_);
+        const float exit = ray.exit_depth(octant_);
         depth = (exit > depth ? exit : depth) + 0.05F * voxel;
         continue;
       }
@@ -129,7 +142,7 @@ class RayMarcher {
         outside_depth = depth;
         outside_distance = distance;
         const float step = distance * to_depth;
-        depth += step > 0.5F * voxel ? step : 0.5F * voxel;
+        depth += step > voxel ? step : voxel;  // too far is better than not quite there: the crossing is bracketed
         continue;
       }
       float surface = 0.0F;
@@ -146,13 +159,17 @@ class RayMarcher {
   /// Farther from the surface than this the nearest voxel is exact enough [voxels].
   static constexpr float kInterpolationBand = 2.0F;
 
-  FOOTHOLD_HD bool enter_block(float x, float y, float z) {
-    const BlockCoordinates block{floor_to_int(x) >> 3, floor_to_int(y) >> 3, floor_to_int(z) >> 3};
-    if (block.x != block_.x || block.y != block_.y || block.z != block_.z) {
-      block_ = block;
-      const int index = volume_.find(pack_key(block));
-      has_surface_ = index >= 0 && volume_.block_has_surface[index] != 0;
+  FOOTHOLD_HD bool enter_octant(float x, float y, float z) {
+    const BlockCoordinates octant{floor_to_int(x) >> 2, floor_to_int(y) >> 2, floor_to_int(z) >> 2};
+    if (octant.x == octant_.x && octant.y == octant_.y && octant.z == octant_.z) return has_surface_;
+    octant_ = octant;
+    const std::uint64_t key = pack_key({octant.x >> 1, octant.y >> 1, octant.z >> 1});
+    if (key != key_) {
+      key_ = key;
+      const int index = volume_.find(key);
+      surface_octants_ = index >= 0 ? volume_.surface_octants[index] : 0U;
     }
+    has_surface_ = (surface_octants_ >> static_cast<unsigned>((octant.z & 1) << 2 | (octant.y & 1) << 1 | (octant.x & 1)) & 1U) != 0;
     return has_surface_;
   }
 
@@ -193,7 +210,9 @@ class RayMarcher {
   VoxelReader reader_;
   float step_fraction_;
   float near_limit_;
-  BlockCoordinates block_{INT32_MAX, 0, 0};
+  BlockCoordinates octant_{INT32_MAX, 0, 0};
+  std::uint64_t key_ = kNoKey;
+  unsigned surface_octants_ = 0;
   bool has_surface_ = false;
 };
 
@@ -211,8 +230,6 @@ struct RenderTile {
   FOOTHOLD_HD void operator()(const Team& team, NoScratch&, std::size_t tile) const {
     const int u0 = static_cast<int>(tile) % camera.num_tile_columns * kRayTileWidth;
     const int v0 = static_cast<int>(tile) / camera.num_tile_columns * kRayTileHeight;
-    const float tile_near = float_of_bits(near[tile]);
-    const float tile_far = float_of_bits(far[tile]);
     RayMarcher marcher(volume, step_fraction);
     for (int i = team.lane(); i < kRayTileWidth * kRayTileHeight; i += team.size()) {
       const int u = u0 + i % kRayTileWidth;
@@ -220,7 +237,8 @@ struct RenderTile {
       if (u >= camera.width || v >= camera.height) continue;
       const Ray ray = ray_of(u, v);
       const std::size_t pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(u);
-      const float depth_m = marcher.march(ray, tile_near, tile_far);
+      const int range = v / kRangeTilePx * camera.num_range_columns + u / kRangeTilePx;
+      const float depth_m = marcher.march(ray, float_of_bits(near[range]), float_of_bits(far[range]));
       depths_m[pixel] = depth_m;
       if (colours != nullptr) colours[pixel] = depth_m > 0.0F ? colour_at(marcher.reader(), ray, depth_m) : Rgb8{};
     }
@@ -317,14 +335,17 @@ void RaycasterOps<kDevice>::render(const Context& context, const TsdfView& volum
   const RenderCamera& view = map.camera;
   const int num_columns = (view.width + kRayTileWidth - 1) / kRayTileWidth;
   const int num_rows = (view.height + kRayTileHeight - 1) / kRayTileHeight;
-  const std::size_t num_tiles = static_cast<std::size_t>(num_columns) * static_cast<std::size_t>(num_rows);
-  const RayCamera camera{view.intrinsics, view.width, view.height, view.world_from_camera, num_columns};
-  scratch.tile_near.resize(num_tiles);
-  scratch.tile_far.resize(num_tiles);
+  const int num_range_columns = (view.width + kRangeTilePx - 1) / kRangeTilePx;
+  const int num_range_rows = (view.height + kRangeTilePx - 1) / kRangeTilePx;
+  const auto num_tiles = static_cast<std::size_t>(num_columns * num_rows);
+  const auto num_ranges = static_cast<std::size_t>(num_range_columns * num_range_rows);
+  const RayCamera camera{view.intrinsics, view.width, view.height, view.world_from_camera, num_columns, num_range_columns};
+  scratch.range_near.resize(num_ranges);
+  scratch.range_far.resize(num_ranges);
   scratch.depths_m.resize(map.pixels.size());
-  std::int32_t* const near = scratch.tile_near.data();
-  std::int32_t* const far = scratch.tile_far.data();
-  exec.for_each(num_tiles, ResetRanges{near, far});
+  std::int32_t* const near = scratch.range_near.data();
+  std::int32_t* const far = scratch.range_far.data();
+  exec.for_each(num_ranges, ResetRanges{near, far});
   exec.for_each(static_cast<std::size_t>(volume.num_blocks),
                 ProjectBlockRange{volume, camera, view.world_from_camera.inverse(), near, far});
   exec.template for_each_team<NoScratch>(num_tiles, RenderTile{volume, camera, settings.step_fraction, near, far, scratch.depths_m.data(),

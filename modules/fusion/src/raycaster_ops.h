@@ -10,10 +10,10 @@
 namespace foothold {
 
 struct Raycaster::Scratch {
-  explicit Scratch(MemoryKind memory) : tile_near(memory), tile_far(memory), depths_m(memory) {}
+  explicit Scratch(MemoryKind memory) : range_near(memory), range_far(memory), depths_m(memory) {}
 
-  Array<std::int32_t> tile_near;  ///< depth [m] as the bits of a positive float, whose order is that of integers
-  Array<std::int32_t> tile_far;
+  Array<std::int32_t> range_near;  ///< depth [m] as the bits of a positive float, whose order is that of integers
+  Array<std::int32_t> range_far;
   Array<float> depths_m;
 };
 

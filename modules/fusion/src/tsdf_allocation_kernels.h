@@ -115,7 +115,7 @@ struct NoScratch {};
 /// Marks every voxel of blocks first, first + 1, ... unobserved.
 struct ClearBlocks {
   TsdfView volume;
-  std::uint8_t* block_has_surface;
+  std::uint8_t* surface_octants;
   int first;
 
   template <class Team>
@@ -129,7 +129,7 @@ struct ClearBlocks {
       block.green[voxel] = 0;
       block.blue[voxel] = 0;
     }
-    if (team.lane() == 0) block_has_surface[index] = 0;
+    if (team.lane() == 0) surface_octants[index] = 0;
   }
 };
 

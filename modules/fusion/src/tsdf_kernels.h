@@ -71,7 +71,7 @@ template <Device kDevice>
 void TsdfOps<kDevice>::add_blocks(const Context& context, const TsdfView& volume, const TsdfTables& tables, int first) {
   const typename ExecutorOf<kDevice>::Type exec(context);
   const auto count = static_cast<std::size_t>(volume.num_blocks - first);
-  exec.template for_each_team<NoScratch>(count, ClearBlocks{volume, tables.block_has_surface, first});
+  exec.template for_each_team<NoScratch>(count, ClearBlocks{volume, tables.surface_octants, first});
   exec.for_each(count, InsertBlocks{volume.block_keys, tables.slot_keys, tables.slot_blocks, volume, first});
   exec.synchronise();
 }
@@ -79,7 +79,9 @@ void TsdfOps<kDevice>::add_blocks(const Context& context, const TsdfView& volume
 template <Device kDevice>
 void TsdfOps<kDevice>::integrate(const Context& context, const TsdfView& volume, const TsdfTables& tables, const PosedDepth& camera,
                                  const PosedColour& colour, int max_weight, Scratch& scratch) {
-  const typename ExecutorOf<kDevice>::Type exec(context);
+  using Exec = typename ExecutorOf<kDevice>::Type;
+  const Exec exec(context);
+  constexpr int kWidth = Exec::kVectorWidth > 1 ? kBlockSide * kBlockSide : 1;
   const int num_columns = (camera.depth.width + kDepthTilePx - 1) / kDepthTilePx;
   const int num_rows = (camera.depth.height + kDepthTilePx - 1) / kDepthTilePx;
   const std::size_t num_tiles = static_cast<std::size_t>(num_columns) * static_cast<std::size_t>(num_rows);
@@ -87,8 +89,8 @@ void TsdfOps<kDevice>::integrate(const Context& context, const TsdfView& volume,
   exec.for_each(num_tiles, FindTileDepths{camera, num_columns, scratch.tile_depths_m.data()});
   exec.template for_each_team<NoScratch>(
       static_cast<std::size_t>(volume.num_blocks),
-      IntegrateBlock{volume, camera, camera.world_from_camera.inverse(), colour.image, colour.intrinsics, colour.colour_from_world,
-                     scratch.tile_depths_m.data(), num_columns, max_weight, tables.block_has_surface});
+      IntegrateBlock<kWidth>{volume, camera, camera.world_from_camera.inverse(), colour.image, colour.intrinsics, colour.colour_from_world,
+                             scratch.tile_depths_m.data(), num_columns, max_weight, tables.surface_octants});
   exec.synchronise();
 }
 

@@ -45,7 +45,7 @@ struct PosedColour {
 struct TsdfTables {
   std::uint64_t* slot_keys = nullptr;
   std::int32_t* slot_blocks = nullptr;
-  std::uint8_t* block_has_surface = nullptr;
+  std::uint8_t* surface_octants = nullptr;
 };
 
 template <Device kDevice>

@@ -117,7 +117,7 @@ void TsdfVolume::save(std::ostream& stream) const {
   writer.write(&header, sizeof(header));
   const auto count = static_cast<std::size_t>(num_blocks_);
   const std::vector<std::uint64_t> keys = block_keys_.to_host();
-  const std::vector<std::uint8_t> flags = block_has_surface_.to_host();
+  const std::vector<std::uint8_t> flags = surface_octants_.to_host();
   writer.write(keys.data(), count * sizeof(std::uint64_t));
   writer.write(flags.data(), count);
   for (std::size_t first = 0, page = 0; first < count; first += kPageBlocks, ++page) {
@@ -172,7 +172,7 @@ void TsdfVolume::read_blocks(const std::function<void(void*, std::size_t)>& read
   num_blocks_ = 0;
   reserve_blocks(std::max(1, num_blocks));
   block_keys_.assign(Span<const std::uint64_t>(keys.data(), count));
-  block_has_surface_.assign(Span<const std::uint8_t>(flags.data(), count));
+  surface_octants_.assign(Span<const std::uint8_t>(flags.data(), count));
   num_blocks_ = num_blocks;
   rebuild_table();
 }

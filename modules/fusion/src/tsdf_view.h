@@ -54,6 +54,12 @@ FOOTHOLD_HD inline BlockCoordinates unpack_key(std::uint64_t key) {
           static_cast<int>((key >> (2 * kKeyBits)) & kMask) - kKeyBias};
 }
 
+/// Half the diagonal of a unit cube, rounded up.
+inline constexpr float kHalfDiagonal = 0.8661F;
+
+/// Which eighth of its block a voxel is in.
+FOOTHOLD_HD inline int octant_of(int x, int y, int z) { return (z & 4) | ((y & 4) >> 1) | ((x & 4) >> 2); }
+
 /// std::floor for values in the range of int, in a form that every compiler turns into few instructions.
 FOOTHOLD_HD inline int floor_to_int(float x) {
   const int truncated = static_cast<int>(x);
@@ -65,7 +71,7 @@ struct TsdfView {
   const std::uint64_t* block_keys = nullptr;
   const std::uint64_t* slot_keys = nullptr;
   const std::int32_t* slot_blocks = nullptr;
-  const std::uint8_t* block_has_surface = nullptr;
+  const std::uint8_t* surface_octants = nullptr;
   int num_blocks = 0;
   int log2_slots = 0;
   float voxel_size_m = 0.0F;
@@ -116,7 +122,7 @@ class VoxelReader {
     const int x = floor_to_int(gx);
     const int y = floor_to_int(gy);
     const int z = floor_to_int(gz);
-    std::int16_t corner[8];
+    std::int16_t corner[8] = {};
     if (!read_cell(x, y, z, corner)) return false;
     const float fx = gx - static_cast<float>(x);
     const float fy = gy - static_cast<float>(y);
@@ -144,9 +150,25 @@ class VoxelReader {
       }
       return observed;
     }
-    for (int i = 0; i < 8; ++i) {
-      corner[i] = stored(x + (i & 1), y + ((i >> 1) & 1), z + (i >> 2));
-      observed &= corner[i] != kUnobserved;
+    // The cell reaches into neighbouring blocks: look each of them up once.
+    const int reach_x = (x & 7) == 7 ? 1 : 0;
+    const int reach_y = (y & 7) == 7 ? 1 : 0;
+    const int reach_z = (z & 7) == 7 ? 1 : 0;
+    for (int b = 0; b <= (reach_x | reach_y << 1 | reach_z << 2); ++b) {
+      const int bx = b & 1;
+      const int by = (b >> 1) & 1;
+      const int bz = b >> 2;
+      if (bx > reach_x || by > reach_y || bz > reach_z) continue;
+      const VoxelBlock* block = block_of(x + bx, y + by, z + bz);
+      if (block == nullptr) return false;
+      for (int i = 0; i < 8; ++i) {
+        const int dx = i & 1;
+        const int dy = (i >> 1) & 1;
+        const int dz = i >> 2;
+        if ((dx & reach_x) != bx || (dy & reach_y) != by || (dz & reach_z) != bz) continue;
+        corner[i] = block->distance[voxel_index(x + dx, y + dy, z + dz)];
+        observed &= corner[i] != kUnobserved;
+      }
     }
     return observed;
   }

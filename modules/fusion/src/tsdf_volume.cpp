@@ -35,7 +35,7 @@ TsdfVolume::TsdfVolume(const Context& context, const TsdfSettings& settings)
       block_keys_(context.memory()),
       slot_keys_(context.memory()),
       slot_blocks_(context.memory()),
-      block_has_surface_(context.memory()),
+      surface_octants_(context.memory()),
       scratch_(std::make_unique<Scratch>(context.memory())) {
   settings.validate();
   reset();
@@ -43,19 +43,19 @@ TsdfVolume::TsdfVolume(const Context& context, const TsdfSettings& settings)
 
 TsdfVolume::~TsdfVolume() = default;
 
-TsdfVolume::TsdfVolume(const TsdfVolume& other)
-    : context_(other.context_),
-      settings_(other.settings_),
-      num_blocks_(other.num_blocks_),
-      log2_slots_(other.log2_slots_),
-      pages_(other.pages_),
-      page_table_(other.context_.memory()),
-      block_keys_(other.block_keys_),
-      slot_keys_(other.slot_keys_),
-      slot_blocks_(other.slot_blocks_),
-      block_has_surface_(other.block_has_surface_),
-      scratch_(std::make_unique<Scratch>(other.context_.memory())) {
-  fill_page_table();
+TsdfVolume::TsdfVolume(const TsdfVolume& other) : TsdfVolume(other, other.context_) {}
+
+TsdfVolume::TsdfVolume(const TsdfVolume& other, const Context& context) : TsdfVolume(context, other.settings_) {
+  reserve_blocks(std::max(1, other.num_blocks_));
+  for (std::size_t page = 0; page < other.pages_.size(); ++page) {
+    detail::copy_memory(context_.memory(), pages_[page].data(), other.context_.memory(), other.pages_[page].data(), pages_[page].size());
+  }
+  const auto count = static_cast<std::size_t>(other.num_blocks_);
+  detail::copy_memory(context_.memory(), block_keys_.data(), other.context_.memory(), other.block_keys_.data(),
+                      count * sizeof(std::uint64_t));
+  detail::copy_memory(context_.memory(), surface_octants_.data(), other.context_.memory(), other.surface_octants_.data(), count);
+  num_blocks_ = other.num_blocks_;
+  rebuild_table();
 }
 
 TsdfVolume::TsdfVolume(TsdfVolume&& other) noexcept = default;
@@ -81,7 +81,7 @@ void TsdfVolume::swap(TsdfVolume& other) noexcept {
   block_keys_.swap(other.block_keys_);
   slot_keys_.swap(other.slot_keys_);
   slot_blocks_.swap(other.slot_blocks_);
-  block_has_surface_.swap(other.block_has_surface_);
+  surface_octants_.swap(other.surface_octants_);
   scratch_.swap(other.scratch_);
 }
 
@@ -90,18 +90,18 @@ void TsdfVolume::reset() {
   pages_.clear();
   page_table_.resize(0);
   block_keys_.resize(0);
-  block_has_surface_.resize(0);
+  surface_octants_.resize(0);
   log2_slots_ = 0;
   reserve_blocks(1);
 }
 
 std::size_t TsdfVolume::state_bytes() const {
   return pages_.size() * kPageBlocks * sizeof(VoxelBlock) + page_table_.num_bytes() + block_keys_.num_bytes() + slot_keys_.num_bytes() +
-         slot_blocks_.num_bytes() + block_has_surface_.num_bytes();
+         slot_blocks_.num_bytes() + surface_octants_.num_bytes();
 }
 
 TsdfView TsdfVolume::view() const {
-  return {page_table_.data(), block_keys_.data(), slot_keys_.data(),      slot_blocks_.data(),   block_has_surface_.data(),
+  return {page_table_.data(), block_keys_.data(), slot_keys_.data(),      slot_blocks_.data(),   surface_octants_.data(),
           num_blocks_,        log2_slots_,        settings_.voxel_size_m, settings_.truncation_m};
 }
 
@@ -120,7 +120,7 @@ void TsdfVolume::reserve_blocks(int num_blocks) {
     fill_page_table();
   }
   block_keys_.resize(count);
-  block_has_surface_.resize(count);
+  surface_octants_.resize(count);
   // Linear probing stays short while at most half of the slots are taken.
   int log2_slots = std::max(log2_slots_, kMinLog2Slots);
   while ((std::size_t{1} << static_cast<unsigned>(log2_slots)) < 2 * count) ++log2_slots;
@@ -133,7 +133,7 @@ void TsdfVolume::reserve_blocks(int num_blocks) {
 }
 
 void TsdfVolume::rebuild_table() {
-  const TsdfTables tables{slot_keys_.data(), slot_blocks_.data(), block_has_surface_.data()};
+  const TsdfTables tables{slot_keys_.data(), slot_blocks_.data(), surface_octants_.data()};
   dispatch<TsdfOps>(context_, [&](auto ops) { ops.rebuild_table(context_, view(), tables); });
 }
 
@@ -154,7 +154,7 @@ IntegrationStats TsdfVolume::integrate(const Frame& frame, const SE3& world_from
   const ScopedStage stage(context_, "fusion/integrate");
   const SE3 colour_from_world = frame.calibration.depth_from_colour.inverse() * world_from_camera.inverse();
   const PosedColour colour{frame.colour, frame.calibration.colour, colour_from_world};
-  const TsdfTables tables{slot_keys_.data(), slot_blocks_.data(), block_has_surface_.data()};
+  const TsdfTables tables{slot_keys_.data(), slot_blocks_.data(), surface_octants_.data()};
   dispatch<TsdfOps>(context_, [&](auto ops) { ops.integrate(context_, view(), tables, camera, colour, settings_.max_weight, *scratch_); });
   return stats;
 }
@@ -165,7 +165,7 @@ void TsdfVolume::add_blocks(int num_new) {
   detail::copy_memory(context_.memory(), block_keys_.data() + first, context_.memory(), scratch_->new_keys.data(),
                       static_cast<std::size_t>(num_new) * sizeof(std::uint64_t));
   num_blocks_ = first + num_new;
-  const TsdfTables tables{slot_keys_.data(), slot_blocks_.data(), block_has_surface_.data()};
+  const TsdfTables tables{slot_keys_.data(), slot_blocks_.data(), surface_octants_.data()};
   dispatch<TsdfOps>(context_, [&](auto ops) { ops.add_blocks(context_, view(), tables, first); });
 }
 

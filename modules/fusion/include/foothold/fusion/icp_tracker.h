@@ -26,9 +26,11 @@ struct IcpSettings {
   /// Distance at which a residual counts as an outlier [m], at the coarsest level and 1 m of depth.
   float coarsest_outlier_m = 0.15F;
   /// The same at the finest level.
-  float finest_outlier_m = 0.03F;
-  /// Growth of the outlier distance and of the assumed noise with depth: 1 + growth * depth^2.
-  float noise_growth = 0.3F;
+  float finest_outlier_m = 0.02F;
+  /// Growth of the outlier distance with depth z [m]: 1 + growth * z^2.
+  float outlier_growth = 0.3F;
+  /// Growth of the assumed noise with depth, likewise: residuals are weighted by its inverse square.
+  float noise_growth = 4.0F;
   /// Depth readings outside [min_depth_m, max_depth_m] are ignored.
   float min_depth_m = 0.2F;
   float max_depth_m = 5.0F;
@@ -47,8 +49,10 @@ struct IcpSettings {
       Range{1e-3, 1.0});
     v(&IcpSettings::finest_outlier_m, "finest_outlier_m", "Outlier distance at the finest level [m] (T: fusion_benchmark, kitchen).",
       Range{1e-3, 1.0});
-    v(&IcpSettings::noise_growth, "noise_growth", "Growth of noise with squared depth [1/m^2] (T: fusion_benchmark, kitchen).",
-      Range{0.0, 10.0});
+    v(&IcpSettings::outlier_growth, "outlier_growth",
+      "Growth of the outlier distance with squared depth [1/m^2] (T: fusion_benchmark, kitchen).", Range{0.0, 100.0});
+    v(&IcpSettings::noise_growth, "noise_growth", "Growth of the assumed noise with squared depth [1/m^2] (T: fusion_benchmark, kitchen).",
+      Range{0.0, 100.0});
     v(&IcpSettings::min_depth_m, "min_depth_m", "Nearer depth is ignored [m] (R).", Range{0.01, 10.0});
     v(&IcpSettings::max_depth_m, "max_depth_m", "Farther depth is ignored [m] (T: fusion_benchmark, kitchen).", Range{0.1, 100.0});
     v(&IcpSettings::converged_step, "converged_step", "A shorter step ends its level (T: fusion_benchmark, kitchen).", Range{0.0, 1.0});

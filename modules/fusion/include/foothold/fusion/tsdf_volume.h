@@ -27,7 +27,7 @@ struct TsdfSettings {
   /// Distance from the surface at which the signed distance saturates [m].
   float truncation_m = 0.04F;
   /// Observations averaged at most; fewer adapt faster to change, more average noise away.
-  int max_weight = 100;
+  int max_weight = 255;
   /// Nearer depth readings are ignored [m].
   float min_depth_m = 0.2F;
   /// Farther depth readings are ignored [m]: a structured-light camera's error grows with the square of depth.
@@ -42,7 +42,7 @@ struct TsdfSettings {
     v(&TsdfSettings::voxel_size_m, "voxel_size_m", "Distance between voxels [m] (R).", Range{0.001, 0.1});
     v(&TsdfSettings::truncation_m, "truncation_m", "Distance at which the signed distance saturates [m]; at least two voxels (R).",
       Range{0.002, 1.0});
-    v(&TsdfSettings::max_weight, "max_weight", "Observations averaged at most (R).", Range{1, 255});
+    v(&TsdfSettings::max_weight, "max_weight", "Observations averaged at most (T: fusion_benchmark, kitchen; R: 100).", Range{1, 255});
     v(&TsdfSettings::min_depth_m, "min_depth_m", "Nearer depth is ignored [m] (R).", Range{0.01, 10.0});
     v(&TsdfSettings::max_depth_m, "max_depth_m", "Farther depth is ignored [m] (T: fusion_benchmark, kitchen).", Range{0.1, 100.0});
     v(&TsdfSettings::allocation_stride_px, "allocation_stride_px", "Every so many pixels allocate blocks (T: fusion_benchmark, kitchen).",
@@ -74,6 +74,8 @@ class TsdfVolume : public Persistent {
   TsdfVolume(const Context& context, const TsdfSettings& settings);
   ~TsdfVolume() override;
   TsdfVolume(const TsdfVolume& other);
+  /// Copies a map to another context's device.
+  TsdfVolume(const TsdfVolume& other, const Context& context);
   TsdfVolume(TsdfVolume&& other) noexcept;
   TsdfVolume& operator=(const TsdfVolume& other);
   TsdfVolume& operator=(TsdfVolume&& other) noexcept;
@@ -117,7 +119,7 @@ class TsdfVolume : public Persistent {
   Array<std::uint64_t> block_keys_;          // coordinates of each block, by its index
   Array<std::uint64_t> slot_keys_;           // open addressing: key, or kNoKey
   Array<std::int32_t> slot_blocks_;          // index of the block in each slot
-  Array<std::uint8_t> block_has_surface_;    // 1 where a ray may hit something in the block
+  Array<std::uint8_t> surface_octants_;      // one bit for each eighth of a block in which a ray may hit something
   std::unique_ptr<Scratch> scratch_;
 };
 
