@@ -79,8 +79,8 @@ struct PoseEstimatorSettings {
   float refinement_radius_m = 0.2F;        ///< (R)
   int refinement_iterations = 3;           ///< (T)
   int final_iterations = 4;                ///< (T)
-  int alignment_iterations = 6;            ///< (P) 0, (T)
-  int alignment_samples = 1500;            ///< (T)
+  int alignment_iterations = 5;            ///< (P) 0, (T)
+  int alignment_samples = 1200;            ///< (T)
   float first_alignment_radius_m = 0.06F;  ///< (T)
   float last_alignment_radius_m = 0.04F;   ///< (T)
   int num_candidates = 16;                 ///< (P) the supplement's last 16
