@@ -87,7 +87,7 @@ std::uint64_t read_records(const std::string& path, std::istream& stream, std::u
   while (file_bytes - end >= sizeof(RecordHeader)) {
     RecordHeader header{};
     read_bytes(stream, &header, sizeof(header));
-    if (header.kind != kScene && header.kind != kLevel)
+    if (header.reserved != 0 || (header.kind != kScene && header.kind != kLevel))
       reject(path, "damaged, a record has kind " + std::to_string(header.kind) + ", expected 1 or 2");
     const auto kind = static_cast<RecordKind>(header.kind);
     const std::uint64_t room = (file_bytes - end - sizeof(header)) / bytes_per_item(kind, examples);
