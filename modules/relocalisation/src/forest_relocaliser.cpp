@@ -62,7 +62,7 @@ std::string read_body(std::istream& stream) {
 
 /// True if a frame has at least one block of pixels to average; smaller ones hold nothing to learn or to find.
 bool has_blocks(const Frame& frame, const FeatureSettings& settings) {
-  return frame.depth.width >= settings.downscale && frame.depth.height >= settings.downscale;
+  return frame.depth.height >= scaled_to_width(settings.downscale, frame.depth.width);
 }
 
 void expect_usable(const Context& context, const Frame& frame) {
@@ -122,7 +122,7 @@ void ForestRelocaliser::train(const Frame& frame, const SE3& world_from_camera) 
   if (!has_blocks(frame, s.settings.features)) return;
   {
     const ScopedStage stage(s.context, "train/features");
-    s.image.compute(s.context, frame, s.settings.features.downscale);
+    s.image.compute(s.context, frame, scaled_to_width(s.settings.features.downscale, frame.depth.width));
     s.reservoirs.sample(s.context, frame, s.image, world_from_camera, s.examples);
     s.examples.leaves.resize(s.examples.pixels.size() * static_cast<std::size_t>(s.forest.num_trees()));
     find_leaves(s.context, s.image, s.device_forest.view(), Span<const SampledPixel>(s.examples.pixels),
@@ -147,7 +147,7 @@ std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) {
   if (s.reservoirs.num_frames() == 0 || !has_blocks(frame, s.settings.features)) return {};
   {
     const ScopedStage stage(s.context, "relocalise/features");
-    s.image.compute(s.context, frame, s.settings.features.downscale);
+    s.image.compute(s.context, frame, scaled_to_width(s.settings.features.downscale, frame.depth.width));
   }
   std::vector<PoseEstimate> estimates;
   for (const PoseCandidate& candidate :

@@ -139,10 +139,11 @@ void PoseAlgorithms<Executor>::preempt(const PoseProblem& problem, PoseEstimator
 /// Aligns the best candidate with the remembered points. The pool's leaves are those of fill_pool().
 template <class Executor>
 void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffers, const HypothesisSet<Executor>& set) {
-  constexpr int kNeighbourDistancePx = 8;  // of the full frame, each way
+  constexpr int kNeighbourDistancePx = 8;  // of a 640 px wide frame, each way
   const PoseEstimatorSettings& settings = problem.settings;
   const int downscale = problem.image.downscale();
-  const int reach = kNeighbourDistancePx / downscale > 0 ? kNeighbourDistancePx / downscale : 1;
+  const int neighbour_distance = scaled_to_width(kNeighbourDistancePx, problem.frame.depth.width);
+  const int reach = neighbour_distance > downscale ? neighbour_distance / downscale : 1;
   const auto num_samples = settings.alignment_samples < settings.pool_size ? settings.alignment_samples : settings.pool_size;
   const Intrinsics intrinsics = problem.frame.calibration.depth.scaled(1.0F / static_cast<float>(downscale));
   set.executor().for_each(static_cast<std::size_t>(num_samples), EstimateSurface{problem.image.view(), intrinsics, downscale, reach,

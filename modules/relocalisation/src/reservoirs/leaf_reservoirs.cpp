@@ -50,7 +50,7 @@ std::size_t LeafReservoirs::state_bytes() const { return blocks_.state_bytes() +
 void LeafReservoirs::sample(const Context& context, const Frame& frame, const FeatureImage& image, const SE3& world_from_camera,
                             TrainingExamples& examples) {
   if (num_frames_ == 0) origin_world_ = world_from_camera.translation;
-  const int spacing = settings_.grid_spacing_px;
+  const int spacing = scaled_to_width(settings_.grid_spacing_px, frame.depth.width);
   const int grid_width = (frame.depth.width + spacing - 1) / spacing;
   const int grid_height = (frame.depth.height + spacing - 1) / spacing;
   const std::size_t num_cells = static_cast<std::size_t>(grid_width) * static_cast<std::size_t>(grid_height);

@@ -34,6 +34,15 @@ struct FeatureImageView {
   float offset_scale_px_mm = 0.0F;
 };
 
+/// The width [px] that sizes in settings refer to.
+inline constexpr int kReferenceWidthPx = 640;
+
+/// A size in pixels of a 640 px wide frame, on a frame of another width: at least 1.
+constexpr int scaled_to_width(int size_px, int width) {
+  const int scaled = (size_px * width + kReferenceWidthPx / 2) / kReferenceWidthPx;
+  return scaled > 1 ? scaled : 1;
+}
+
 /// Owns the packed image of the current frame.
 class FeatureImage {
  public:

@@ -17,7 +17,8 @@ struct FeatureSettings {
 
   template <class Visitor>
   static void fields(Visitor& v) {
-    v(&FeatureSettings::downscale, "downscale", "Factor by which frames are averaged down before features are evaluated.", Range{1, 8});
+    v(&FeatureSettings::downscale, "downscale",
+      "Factor by which 640 px wide frames are averaged down before features are evaluated; less for narrower frames.", Range{1, 8});
   }
 };
 
@@ -30,7 +31,8 @@ struct ReservoirSettings {
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&ReservoirSettings::capacity, "capacity", "Points that a leaf remembers at most.", Range{16, 1024});
-    v(&ReservoirSettings::grid_spacing_px, "grid_spacing_px", "Spacing of the pixels that a training frame contributes.", Range{1, 64});
+    v(&ReservoirSettings::grid_spacing_px, "grid_spacing_px",
+      "Spacing of the pixels that a 640 px wide training frame contributes; less for narrower frames.", Range{1, 64});
     v(&ReservoirSettings::jitter, "jitter", "Take a random pixel of each grid cell instead of its first.");
   }
 };
