@@ -19,32 +19,7 @@ constexpr std::size_t kFloatSums = 256;  // examples summed in single precision 
 enum Moment { kCount, kX, kXX = 4, kNumMoments = 10 };
 
 using Sums = double[kNumMoments];
-
-/// The part of a node's examples that belongs to one scene.
-struct SceneRange {
-  std::size_t begin = 0;
-  std::size_t end = 0;
-};
-
-/// Calls body(range) for each scene of a node.
-template <class Body>
-void for_each_scene(const NodeExamples& node, const Body& body) {
-  std::size_t begin = 0;
-  while (begin < node.indices.size()) {
-    const auto& scene_begins = node.all.scene_begins;
-    const std::size_t scene_end = *std::upper_bound(scene_begins.begin(), scene_begins.end(), std::size_t{node.indices[begin]});
-    const auto* end = std::lower_bound(node.indices.begin() + begin, node.indices.end(), scene_end);
-    const auto end_index = static_cast<std::size_t>(end - node.indices.begin());
-    body(SceneRange{begin, end_index});
-    begin = end_index;
-  }
-}
-
-Eigen::Vector3f mean_point(const NodeExamples& node, const SceneRange& range) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t i = range.begin; i < range.end; ++i) sum += node.all.points_world[node.indices[i]].cast<double>();
-  return (sum / static_cast<double>(range.end - range.begin)).cast<float>();
-}
+static_assert(sizeof(Sums) == sizeof(SceneSums::moments));
 
 void fill_moments(const Eigen::Vector3f& p, float* moments) {
   moments[kCount] = 1.0F;
@@ -57,6 +32,35 @@ void fill_moments(const Eigen::Vector3f& p, float* moments) {
   moments[kXX + 3] = p.y() * p.y();
   moments[kXX + 4] = p.y() * p.z();
   moments[kXX + 5] = p.z() * p.z();
+}
+
+/// Sums over one scene's points.
+SceneSums sum_scene(const NodeExamples& node, std::size_t begin, std::size_t end) {
+  SceneSums scene;
+  scene.begin = begin;
+  scene.end = end;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t i = begin; i < end; ++i) sum += node.all.points_world[node.indices[i]].cast<double>();
+  scene.mean_world = (sum / static_cast<double>(end - begin)).cast<float>();
+  for (std::size_t i = begin; i < end; ++i) {
+    float moments[kNumMoments];
+    fill_moments(node.all.points_world[node.indices[i]] - scene.mean_world, moments);
+    for (int m = 0; m < kNumMoments; ++m) scene.moments[m] += static_cast<double>(moments[m]);
+  }
+  return scene;
+}
+
+std::vector<SceneSums> sum_scenes(const NodeExamples& node) {
+  std::vector<SceneSums> scenes;
+  const std::vector<std::size_t>& scene_begins = node.all.scene_begins;
+  std::size_t begin = 0;
+  while (begin < node.indices.size()) {
+    const std::size_t scene_end = *std::upper_bound(scene_begins.begin(), scene_begins.end(), std::size_t{node.indices[begin]});
+    const auto* end = std::lower_bound(node.indices.begin() + begin, node.indices.end(), scene_end);
+    scenes.push_back(sum_scene(node, begin, static_cast<std::size_t>(end - node.indices.begin())));
+    begin = scenes.back().end;
+  }
+  return scenes;
 }
 
 /// Adds the scatter (sum of squared differences to the mean) of one scene's sums.
@@ -82,23 +86,23 @@ double log_determinant(const double* c, float floor_m) {
 }
 
 /// The spatial variance V of one side. With a prior, its covariance is drawn towards the parent's, the more the fewer examples it has.
-double side_variance(const double* scatter, double num_examples, int num_scenes, const NodeVariance& parent,
+double side_variance(const double (&scatter)[6][kGroup], int candidate, double num_examples, double num_scenes, const NodeVariance& parent,
                      const ForestTrainingSettings& settings) {
   const auto prior = static_cast<double>(settings.covariance_prior_examples);
   const double divisor = prior > 0.0 ? num_examples - num_scenes + prior : num_examples;
   double covariance[6];
-  for (int i = 0; i < 6; ++i) covariance[i] = (scatter[i] + prior * parent.pooled_covariance[i]) / divisor;
+  for (int i = 0; i < 6; ++i) covariance[i] = (scatter[i][candidate] + prior * parent.pooled_covariance[i]) / divisor;
   return log_determinant(covariance, settings.covariance_floor_m);
 }
 
 /// The sums of a few candidates side by side.
 struct GroupSums {
   double right[kNumMoments][kGroup] = {};  // of the current scene
-  double scatter_right[kGroup][6] = {};    // of all scenes so far
-  double scatter_left[kGroup][6] = {};
+  double scatter_right[6][kGroup] = {};    // of all scenes so far
+  double scatter_left[6][kGroup] = {};
   double num_right[kGroup] = {};
-  int scenes_right[kGroup] = {};
-  int scenes_left[kGroup] = {};
+  double scenes_right[kGroup] = {};
+  double scenes_left[kGroup] = {};
   double pairs_right[kGroup] = {};          // of pairs that reached the node together: example right,
   double pairs_partner_right[kGroup] = {};  // partner right,
   double pairs_both_right[kGroup] = {};     // and both
@@ -131,16 +135,16 @@ void find_sides(const Group& group, const std::int16_t* row, float* right) {
 }
 
 /// Sums the right side's moments over one scene.
-void sum_scene(const NodeExamples& node, const SceneRange& range, const Eigen::Vector3f& mean, const Group& group, GroupSums& sums) {
+void sum_right_side(const NodeExamples& node, const SceneSums& scene, const Group& group, GroupSums& sums) {
   std::fill_n(&sums.right[0][0], kNumMoments * kGroup, 0.0);
-  for (std::size_t chunk = range.begin; chunk < range.end; chunk += kFloatSums) {
+  for (std::size_t chunk = scene.begin; chunk < scene.end; chunk += kFloatSums) {
     alignas(64) float chunk_sums[kNumMoments][kGroup] = {};
-    for (std::size_t i = chunk; i < std::min(range.end, chunk + kFloatSums); ++i) {
+    for (std::size_t i = chunk; i < std::min(scene.end, chunk + kFloatSums); ++i) {
       const std::uint32_t example = node.indices[i];
       alignas(64) float right[kGroup];
       find_sides(group, node.all.row(example), right);
       float moments[kNumMoments];
-      fill_moments(node.all.points_world[example] - mean, moments);
+      fill_moments(node.all.points_world[example] - scene.mean_world, moments);
       for (int m = 0; m < kNumMoments; ++m) {
         for (int c = 0; c < kGroup; ++c) chunk_sums[m][c] += right[c] * moments[m];
       }
@@ -151,30 +155,32 @@ void sum_scene(const NodeExamples& node, const SceneRange& range, const Eigen::V
   }
 }
 
-/// Turns a scene's sums into scatter on both sides.
-void finish_scene(const Sums& scene, const Group& group, GroupSums& sums) {
-  for (int c = 0; c < group.num; ++c) {
-    Sums right;
-    Sums left;
-    for (int m = 0; m < kNumMoments; ++m) {
-      right[m] = sums.right[m][c];
-      left[m] = scene[m] - right[m];
-    }
-    add_scatter(right, sums.scatter_right[c]);
-    add_scatter(left, sums.scatter_left[c]);
-    sums.num_right[c] += right[kCount];
-    sums.scenes_right[c] += right[kCount] > 0.0 ? 1 : 0;
-    sums.scenes_left[c] += left[kCount] > 0.0 ? 1 : 0;
+/// Adds the scatter of one scene's right side and of what is left to the sums of all scenes; all candidates side by side.
+void finish_scene(const Sums& scene, GroupSums& sums) {
+  double right_inverse[kGroup];
+  double left_inverse[kGroup];
+  for (int c = 0; c < kGroup; ++c) {
+    const double right = sums.right[kCount][c];
+    const double left = scene[kCount] - right;
+    right_inverse[c] = 1.0 / std::max(right, 1.0);
+    left_inverse[c] = 1.0 / std::max(left, 1.0);
+    sums.num_right[c] += right;
+    sums.scenes_right[c] += right > 0.0 ? 1.0 : 0.0;
+    sums.scenes_left[c] += left > 0.0 ? 1.0 : 0.0;
   }
-}
-
-/// All moments of one scene, relative to its mean.
-void sum_all(const NodeExamples& node, const SceneRange& range, const Eigen::Vector3f& mean, Sums& sums) {
-  std::fill_n(sums, kNumMoments, 0.0);
-  for (std::size_t i = range.begin; i < range.end; ++i) {
-    float moments[kNumMoments];
-    fill_moments(node.all.points_world[node.indices[i]] - mean, moments);
-    for (int m = 0; m < kNumMoments; ++m) sums[m] += static_cast<double>(moments[m]);
+  int product = 0;
+  for (int a = 0; a < 3; ++a) {
+    for (int b = a; b < 3; ++b) {
+      for (int c = 0; c < kGroup; ++c) {
+        const double right_a = sums.right[kX + a][c];
+        const double right_b = sums.right[kX + b][c];
+        const double right_ab = sums.right[kXX + product][c];
+        sums.scatter_right[product][c] += right_ab - right_a * right_b * right_inverse[c];
+        const double left = scene[kXX + product] - right_ab - (scene[kX + a] - right_a) * (scene[kX + b] - right_b) * left_inverse[c];
+        sums.scatter_left[product][c] += left;
+      }
+      ++product;
+    }
   }
 }
 
@@ -213,17 +219,13 @@ double shared_information(double right, double partner_right, double both_right,
 }  // namespace
 
 NodeVariance node_variance(const NodeExamples& node, const ForestTrainingSettings& settings) {
+  NodeVariance variance;
+  variance.scenes = sum_scenes(node);
   double scatter[6] = {};
-  int num_scenes = 0;
-  for_each_scene(node, [&](const SceneRange& range) {
-    Sums sums;
-    sum_all(node, range, mean_point(node, range), sums);
-    add_scatter(sums, scatter);
-    ++num_scenes;
-  });
+  for (const SceneSums& scene : variance.scenes) add_scatter(scene.moments, scatter);
+  const auto num_scenes = static_cast<double>(variance.scenes.size());
   const auto num = static_cast<double>(node.indices.size());
   const bool has_prior = settings.covariance_prior_examples > 0.0F;
-  NodeVariance variance;
   for (int i = 0; i < 6; ++i) variance.pooled_covariance[i] = scatter[i] / (has_prior ? std::max(1.0, num - num_scenes) : num);
   variance.log_determinant = log_determinant(variance.pooled_covariance, settings.covariance_floor_m);
   return variance;
@@ -232,13 +234,10 @@ NodeVariance node_variance(const NodeExamples& node, const ForestTrainingSetting
 ScoredSplit best_split(const NodeExamples& node, const NodeVariance& variance, const ForestTrainingSettings& settings, int first, int num) {
   const Group group = draw_candidates(node, settings, first, num);
   GroupSums sums;
-  for_each_scene(node, [&](const SceneRange& range) {
-    const Eigen::Vector3f mean = mean_point(node, range);
-    Sums scene;
-    sum_all(node, range, mean, scene);
-    sum_scene(node, range, mean, group, sums);
-    finish_scene(scene, group, sums);
-  });
+  for (const SceneSums& scene : variance.scenes) {
+    sum_right_side(node, scene, group, sums);
+    finish_scene(scene.moments, sums);
+  }
   const bool with_pairs = settings.agreement_weight > 0.0F && node.all.paired;
   const double num_pairs = with_pairs ? count_pairs(node, group, sums) : 0.0;
 
@@ -250,8 +249,8 @@ ScoredSplit best_split(const NodeExamples& node, const NodeVariance& variance, c
     const double num_right = sums.num_right[c];
     const double num_left = num_examples - num_right;
     if (num_right < fewest || num_left < fewest) continue;
-    const double right = side_variance(sums.scatter_right[c], num_right, sums.scenes_right[c], variance, settings);
-    const double left = side_variance(sums.scatter_left[c], num_left, sums.scenes_left[c], variance, settings);
+    const double right = side_variance(sums.scatter_right, c, num_right, sums.scenes_right[c], variance, settings);
+    const double left = side_variance(sums.scatter_left, c, num_left, sums.scenes_left[c], variance, settings);
     const double gain = variance.log_determinant - (num_right * right + num_left * left) / num_examples;
     double score = static_cast<double>(settings.variance_weight) * gain;
     if (num_pairs > 0.0) {

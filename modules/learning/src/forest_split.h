@@ -4,7 +4,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "foothold/base/span.h"
 #include "foothold/learning/forest_training.h"
@@ -26,8 +28,17 @@ struct NodeExamples {
   std::uint64_t node_key = 0;         ///< names the node's random choices
 };
 
+/// The part of a node's examples that belongs to one scene.
+struct SceneSums {
+  std::size_t begin = 0;  ///< into the node's indices
+  std::size_t end = 0;
+  Eigen::Vector3f mean_world = Eigen::Vector3f::Zero();
+  double moments[10] = {};  ///< sums over its points, relative to the mean: 1, x, y, z, xx, xy, xz, yy, yz, zz
+};
+
 /// The spatial variance of a node before it is split.
 struct NodeVariance {
+  std::vector<SceneSums> scenes;
   double log_determinant = 0.0;
   double pooled_covariance[6] = {};  ///< xx xy xz yy yz zz [m^2]
 };
