@@ -168,5 +168,13 @@ TEST_CASE("evaluate_feature: partners outside the image are clamped to its borde
   REQUIRE(value(FeatureChannel::kDepth, -0.51F, 0.0F) == 1);
 }
 
+TEST_CASE("scaled_to_width: sizes shrink and grow with the frame, but never below a pixel") {
+  REQUIRE(scaled_to_width(8, 640) == 8);
+  REQUIRE(scaled_to_width(8, 320) == 4);
+  REQUIRE(scaled_to_width(8, 1280) == 16);
+  REQUIRE(scaled_to_width(4, 100) == 1);
+  REQUIRE(scaled_to_width(1, 64) == 1);
+}
+
 }  // namespace
 }  // namespace foothold

@@ -170,6 +170,13 @@ TEST_CASE("LeafReservoirs: the same whatever the number of threads") {
   require_same(all[0], all[2]);
 }
 
+/// Settings whose grid has a spacing of 8 pixels on a FlatFrame, a tenth as wide as the frames that settings refer to.
+ReservoirSettings eight_pixel_grid() {
+  ReservoirSettings settings;
+  settings.grid_spacing_px = 80;
+  return settings;
+}
+
 /// A frame of one depth and one colour.
 struct FlatFrame {
   explicit FlatFrame(float depth_m, int width = 64, int height = 48)
@@ -192,7 +199,7 @@ TEST_CASE("LeafReservoirs::sample: one pixel of each grid cell, with its world p
   FeatureImage image(context);
   image.compute(context, flat.frame, 4);
   for (const bool jitter : {false, true}) {
-    ReservoirSettings settings;
+    ReservoirSettings settings = eight_pixel_grid();
     settings.jitter = jitter;
     LeafReservoirs reservoirs(context, 10, settings, 42);
     TrainingExamples examples(MemoryKind::kHost);
@@ -223,7 +230,7 @@ TEST_CASE("LeafReservoirs::sample: one pixel of each grid cell, with its world p
 
 TEST_CASE("LeafReservoirs::sample: points further than 32 m from the origin are dropped") {
   const Context context = context_of(1);
-  LeafReservoirs reservoirs(context, 10, ReservoirSettings{}, 42);
+  LeafReservoirs reservoirs(context, 10, eight_pixel_grid(), 42);
   TrainingExamples examples(MemoryKind::kHost);
   FeatureImage image(context);
   const auto num_with_depth = [&](float depth_m, float z_m) {

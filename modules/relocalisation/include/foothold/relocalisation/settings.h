@@ -32,7 +32,7 @@ struct ReservoirSettings {
   static void fields(Visitor& v) {
     v(&ReservoirSettings::capacity, "capacity", "Points that a leaf remembers at most.", Range{16, 1024});
     v(&ReservoirSettings::grid_spacing_px, "grid_spacing_px",
-      "Spacing of the pixels that a 640 px wide training frame contributes; less for narrower frames.", Range{1, 64});
+      "Spacing of the pixels that a 640 px wide training frame contributes; less for narrower frames.", Range{1, 640});
     v(&ReservoirSettings::jitter, "jitter", "Take a random pixel of each grid cell instead of its first.");
   }
 };
