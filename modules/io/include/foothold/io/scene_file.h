@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Whole reconstructions in one file: the map, what the relocaliser has learnt, the settings, and where it all comes from.
+///
+/// The file (docs/scene-format.md) is versioned and checksummed throughout: damage is told before a part sees it.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "foothold/api/relocaliser.h"
+#include "foothold/io/settings_file.h"
+
+namespace foothold {
+
+/// What a scene file says of itself. Paths and names occur once each.
+struct SceneDescription {
+  std::vector<SettingText> settings;    ///< all that it was made with
+  std::vector<SettingText> provenance;  ///< for people: program, source of the frames, time, ...
+};
+
+/// The settings of a struct as a scene file keeps them.
+template <class Settings>
+std::vector<SettingText> scene_settings(const Settings& settings) {
+  std::vector<SettingText> result;
+  for (const SettingDescription& setting : describe_settings(settings)) result.push_back({setting.path, setting.value});
+  return result;
+}
+
+/// Something that belongs to a scene and can be written to a stream.
+struct SavedPart {
+  std::string name;  ///< 1 to 64 characters
+  const Persistent* part = nullptr;
+};
+
+/// Something that receives what was saved under its name.
+struct LoadedPart {
+  std::string name;
+  Persistent* part = nullptr;
+};
+
+/// Writes a scene. The file of that name is replaced once all of it is on the disk; on failure it stays. @throws FileError
+void save_scene(const std::string& path, const SceneDescription& description, const std::vector<SavedPart>& parts);
+
+/// Reads what a scene file says of itself, without its parts.
+/// @throws FileError naming the file: missing, not a scene, of another version, cut short or damaged.
+SceneDescription read_scene_description(const std::string& path);
+
+/// Loads a scene's parts, in the order in which they were saved.
+///
+/// A part keeps its former state unless it was read whole, but those before it have theirs replaced by then: load into fresh objects, and
+/// drop them on failure.
+/// @throws FileError as read_scene_description(), if the parts are others than those saved, or if one of them refuses what it reads.
+SceneDescription load_scene(const std::string& path, const std::vector<LoadedPart>& parts);
+
+}  // namespace foothold
