@@ -18,5 +18,11 @@ struct Command {
 Command add_loss_command(CLI::App& app);
 /// "split": learn some sequences, find the camera in others.
 Command add_split_command(CLI::App& app);
+/// "adapt": forests pre-trained on one scene, adapted to others. Reference: [Cavallari2017] Sec. 4.1, Tables 1 and 2.
+Command add_adapt_command(CLI::App& app);
+/// "novel": recall against the distance to the nearest learnt view. Reference: [Cavallari2017] Sec. 4.3.
+Command add_novel_command(CLI::App& app);
+/// "confidence": false accepts against recall, and calibration.
+Command add_confidence_command(CLI::App& app);
 
 }  // namespace foothold::benchmark

@@ -53,10 +53,13 @@ Forest make_forest(const std::string& choice, const BenchmarkSettings& settings)
 
 }  // namespace
 
-void add_common_options(CLI::App& command, CommonOptions& options) {
-  command.add_option("--method", options.methods, method_help())->delimiter(',')->capture_default_str();
+void add_forest_option(CLI::App& command, CommonOptions& options) {
   command.add_option("--forest", options.forest, "A forest file, 'default', or 'random' for one made from the settings random_forest.*")
       ->capture_default_str();
+}
+
+void add_experiment_options(CLI::App& command, CommonOptions& options) {
+  command.add_option("--method", options.methods, method_help())->delimiter(',')->capture_default_str();
   command.add_option("--preset", options.preset, "Settings that method forest starts from: tuned or paper")->capture_default_str();
   command.add_option("--settings", options.settings_file,
                      "JSON file of settings, a section per method: {\"forest\": {\"pose\": {\"num_hypotheses\": 512}}}");
@@ -70,6 +73,11 @@ void add_common_options(CLI::App& command, CommonOptions& options) {
       "Decode frames between the timed calls, not beside them in a thread: slower, but what is timed has the machine to itself");
   command.add_option("--json", options.json_file, "Write the results to FILE (docs/benchmark-json.md)")->type_name("FILE");
   command.add_option("--csv", options.csv_file, "Write a line per tested frame to FILE")->type_name("FILE");
+}
+
+void add_common_options(CLI::App& command, CommonOptions& options) {
+  add_forest_option(command, options);
+  add_experiment_options(command, options);
   command.add_option("--plot", options.plot_file, "Draw recall over time and the trajectory to FILE.png")->type_name("FILE");
   command
       .add_option("--estimates", options.estimates_file,

@@ -20,6 +20,10 @@ std::string novelty_table(const BenchmarkResult& result);
 std::string all_tables(const BenchmarkResult& result);
 /// The result as a JSON document.
 std::string json_document(const BenchmarkResult& result);
+/// A number that reads back to the same single-precision value; empty if it is not finite.
+std::string csv_number(double value);
+/// Text for a CSV cell: quoted if need be.
+std::string csv_cell(const std::string& text);
 /// A line per tested frame and method.
 std::string csv_document(const BenchmarkResult& result);
 /// The poses of one method: a line per tested frame.

@@ -10,9 +10,6 @@
 namespace foothold::benchmark {
 namespace {
 
-/// Thrown through a protocol to end it.
-struct Interrupted {};
-
 /// The settings that a method reads, without its own name in front of the path.
 std::vector<std::pair<std::string, std::string>> settings_of(const Method& method, const BenchmarkSettings& all) {
   const std::string prefix = method.name + ".";
@@ -23,7 +20,10 @@ std::vector<std::pair<std::string, std::string>> settings_of(const Method& metho
   return settings;
 }
 
-MethodResult run_method(const Method& method, const MethodInputs& inputs, const CommonOptions& options, const Protocol& protocol) {
+}  // namespace
+
+MethodResult run_method(const Method& method, const MethodInputs& inputs, const CommonOptions& options, const Protocol& protocol,
+                        const std::string& label) {
   restart_peak_memory();
   Trace trace;
   const std::unique_ptr<Relocaliser> relocaliser = method.create(apps::make_context(options.device, &trace), inputs);
@@ -32,7 +32,7 @@ MethodResult run_method(const Method& method, const MethodInputs& inputs, const 
   protocol_options.trace = &trace;
   protocol_options.progress = [&](const Progress& progress) {
     if (apps::interrupted()) throw Interrupted{};
-    if (bar == nullptr) bar = std::make_unique<apps::ProgressBar>(method.name, progress.num_total);
+    if (bar == nullptr) bar = std::make_unique<apps::ProgressBar>(label, progress.num_total);
     bar->set(progress.num_done);
   };
   MethodResult result;
@@ -44,13 +44,11 @@ MethodResult run_method(const Method& method, const MethodInputs& inputs, const 
   return result;
 }
 
-}  // namespace
-
 bool run_methods(const CommonOptions& options, const Protocol& protocol, BenchmarkResult& result) {
   const std::vector<Method> methods = find_methods(options.methods);
   const MethodInputs inputs = method_inputs(options, methods);
   try {
-    for (const Method& method : methods) result.methods.push_back(run_method(method, inputs, options, protocol));
+    for (const Method& method : methods) result.methods.push_back(run_method(method, inputs, options, protocol, method.name));
   } catch (const Interrupted&) {
     return false;
   }

@@ -11,31 +11,29 @@ namespace {
 
 constexpr double kDegPerRad = 57.29577951308232;
 
-/// A number that reads back to the same single-precision value; empty if it is not finite.
-std::string exact(double value) {
+void append_pose(const SE3& world_from_camera, std::string& line) {
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) line += " " + csv_number(world_from_camera.rotation(row, column));
+    line += " " + csv_number(world_from_camera.translation(row));
+  }
+  line += " 0 0 0 1";
+}
+
+}  // namespace
+
+std::string csv_number(double value) {
   if (!std::isfinite(value)) return {};
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.9g", value);
   return text.data();
 }
 
-/// Text for a CSV cell: quoted if need be.
-std::string cell(const std::string& text) {
+std::string csv_cell(const std::string& text) {
   if (text.find_first_of(",\"\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
   return quoted + "\"";
 }
-
-void append_pose(const SE3& world_from_camera, std::string& line) {
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) line += " " + exact(world_from_camera.rotation(row, column));
-    line += " " + exact(world_from_camera.translation(row));
-  }
-  line += " 0 0 0 1";
-}
-
-}  // namespace
 
 std::string csv_document(const BenchmarkResult& result) {
   std::string csv = "method,sequence,frame,trained,answered,translation_error_m,rotation_error_deg,confidence,accepted,relocalise_ms\n";
@@ -44,10 +42,10 @@ std::string csv_document(const BenchmarkResult& result) {
       const TestRecord& test = method.log.tests[i];
       const double confidence = test.best.has_value() ? test.best->confidence : NAN;
       const bool accepted = test.best.has_value() && test.best->confidence >= method.log.acceptance_threshold;
-      csv += cell(method.name) + "," + cell(result.tested[static_cast<std::size_t>(test.input_index)]) + "," +
+      csv += csv_cell(method.name) + "," + csv_cell(result.tested[static_cast<std::size_t>(test.input_index)]) + "," +
              std::to_string(test.frame_index) + "," + std::to_string(test.num_trained) + "," + (test.best.has_value() ? "1" : "0") + "," +
-             exact(test.error.translation_m) + "," + exact(test.error.rotation_rad * kDegPerRad) + "," + exact(confidence) + "," +
-             (accepted ? "1" : "0") + "," + exact(method.log.relocalise.wall_ms[i]) + "\n";
+             csv_number(test.error.translation_m) + "," + csv_number(test.error.rotation_rad * kDegPerRad) + "," + csv_number(confidence) +
+             "," + (accepted ? "1" : "0") + "," + csv_number(method.log.relocalise.wall_ms[i]) + "\n";
     }
   }
   return csv;
@@ -63,7 +61,7 @@ std::string estimates_document(const BenchmarkResult& result, const MethodResult
     std::string line = std::to_string(test.frame_index);
     if (test.best.has_value()) {
       append_pose(test.best->world_from_camera, line);
-      line += " " + exact(test.best->confidence);
+      line += " " + csv_number(test.best->confidence);
     } else {
       line += " lost";
     }

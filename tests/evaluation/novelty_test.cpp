@@ -2,7 +2,11 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/evaluation/novelty.h"
 
+#include <cmath>
+#include <utility>
+
 #include "fakes.h"
+#include "foothold/base/error.h"
 #include "foothold/evaluation/train_test.h"
 #include "support/catch.h"
 #include "support/random_seed.h"
@@ -74,6 +78,37 @@ TEST_CASE("novelty_bins: hold every test once, with its outcome") {
   }
   REQUIRE(num_frames == 40);
   REQUIRE(num_found == 20);
+}
+
+/// Bins with the given numbers of frames and found frames, the last one the rest.
+std::vector<NoveltyBin> bins_of(const std::vector<std::pair<int, int>>& counts) {
+  std::vector<NoveltyBin> bins(counts.size());
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    bins[i].num_frames = counts[i].first;
+    bins[i].num_found = counts[i].second;
+    bins[i].is_rest = i + 1 == counts.size();
+  }
+  return bins;
+}
+
+TEST_CASE("merge_novelty_bins: adds frames and successes bin by bin, with intervals of the sums") {
+  const std::vector<NoveltyBin> sum = merge_novelty_bins({bins_of({{4, 1}, {0, 0}, {3, 3}}), bins_of({{6, 4}, {2, 1}, {0, 0}})});
+  REQUIRE(sum.size() == 3);
+  REQUIRE(sum[0].num_frames == 10);
+  REQUIRE(sum[0].num_found == 5);
+  REQUIRE(sum[1].num_frames == 2);
+  REQUIRE(sum[2].num_found == 3);
+  const Interval expected = wilson_interval(5, 10);
+  REQUIRE(sum[0].recall_95.low == expected.low);
+  REQUIRE(sum[0].recall_95.high == expected.high);
+  REQUIRE_THROWS_AS(merge_novelty_bins({}), ContractViolation);
+  REQUIRE_THROWS_AS(merge_novelty_bins({bins_of({{1, 0}}), bins_of({{1, 0}, {1, 0}})}), ContractViolation);
+}
+
+TEST_CASE("novelty_area: is the mean recall of limited bins that hold frames") {
+  REQUIRE(novelty_area(bins_of({{4, 4}, {2, 1}, {10, 0}})) == 0.75);
+  REQUIRE(novelty_area(bins_of({{4, 1}, {0, 0}, {10, 10}})) == 0.25);
+  REQUIRE(std::isnan(novelty_area(bins_of({{0, 0}, {5, 5}}))));
 }
 
 }  // namespace

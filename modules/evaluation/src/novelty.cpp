@@ -3,6 +3,9 @@
 #include "foothold/evaluation/novelty.h"
 
 #include <algorithm>
+#include <limits>
+
+#include "foothold/base/contract.h"
 
 namespace foothold {
 
@@ -37,6 +40,31 @@ std::vector<NoveltyBin> novelty_bins(const RunLog& log) {
   }
   for (NoveltyBin& bin : bins) bin.recall_95 = wilson_interval(bin.num_found, bin.num_frames);
   return bins;
+}
+
+std::vector<NoveltyBin> merge_novelty_bins(const std::vector<std::vector<NoveltyBin>>& runs) {
+  FOOTHOLD_EXPECTS(!runs.empty());
+  std::vector<NoveltyBin> sum = runs.front();
+  for (std::size_t run = 1; run < runs.size(); ++run) {
+    FOOTHOLD_EXPECTS(runs[run].size() == sum.size());
+    for (std::size_t bin = 0; bin < sum.size(); ++bin) {
+      sum[bin].num_frames += runs[run][bin].num_frames;
+      sum[bin].num_found += runs[run][bin].num_found;
+    }
+  }
+  for (NoveltyBin& bin : sum) bin.recall_95 = wilson_interval(bin.num_found, bin.num_frames);
+  return sum;
+}
+
+double novelty_area(const std::vector<NoveltyBin>& bins) {
+  double area = 0.0;
+  int num_bins = 0;
+  for (const NoveltyBin& bin : bins) {
+    if (bin.is_rest || bin.num_frames == 0) continue;
+    area += static_cast<double>(bin.num_found) / bin.num_frames;
+    ++num_bins;
+  }
+  return num_bins == 0 ? std::numeric_limits<double>::quiet_NaN() : area / num_bins;
 }
 
 }  // namespace foothold

@@ -52,7 +52,11 @@ std::vector<std::string> read_split(const std::string& scene_folder, const std::
   std::vector<std::string> sequences;
   for (const std::string& name : io::parse_split(io::read_file(file, io::kMaxNumbersFileBytes), file)) {
     const fs::path sequence = folder / name;
-    if (!fs::is_directory(sequence)) throw FileError(sequence.string() + ": no such folder, but " + file.string() + " lists it");
+    if (!fs::is_directory(sequence)) {
+      const fs::path packed = sequence.string() + ".zip";
+      throw FileError(sequence.string() + ": no such folder, but " + file.string() + " lists it" +
+                      (fs::exists(packed) ? "; unpack " + packed.string() : ""));
+    }
     sequences.push_back(sequence.string());
   }
   return sequences;

@@ -34,4 +34,11 @@ std::size_t novelty_bin_of(const SE3& world_from_camera, Span<const SE3> trained
 /// Sorts the tests of a run into novelty bins, the rest last.
 std::vector<NoveltyBin> novelty_bins(const RunLog& log);
 
+/// Adds up the same bins of several runs, as the paper aggregates its scenes. @pre All have the bins of novelty_bins(); at least one.
+std::vector<NoveltyBin> merge_novelty_bins(const std::vector<std::vector<NoveltyBin>>& runs);
+
+/// The area under recall against novelty up to the last limit, as a part of what perfect recall would have: the mean recall of the limited
+/// bins that hold frames. The last bin has no limit and does not count. NaN if no bin holds a frame.
+double novelty_area(const std::vector<NoveltyBin>& bins);
+
 }  // namespace foothold

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What the JSON documents of all commands share; docs/benchmark-json.md describes them.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "result.h"
+
+namespace foothold::benchmark {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON knows no NaN: what could not be measured is null.
+Json number(double value);
+Json interval_json(const Interval& interval);
+Json spread_json(const Spread& spread);
+Json novelty_json(const std::vector<NoveltyBin>& bins);
+
+/// Nests {"pose.seed", "42"} as {"pose": {"seed": 42}}.
+Json nested(const std::vector<std::pair<std::string, std::string>>& settings);
+
+/// Format, version, protocol, settings and machine: the beginning of every document.
+Json document_head(const std::string& protocol, const std::vector<std::pair<std::string, std::string>>& options);
+
+/// What equal options reproduce: counts, recall, errors, confidence, memory of the scene.
+Json accuracy_json(const MethodReport& report);
+/// What differs from run to run: durations and the memory of the process.
+Json timing_json(const MethodResult& method);
+
+}  // namespace foothold::benchmark

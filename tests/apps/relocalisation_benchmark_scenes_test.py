@@ -1,0 +1,193 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The Foothold authors
+"""The subcommands of relocalisation_benchmark that run on scenes, and how they explain a wrongly formatted one."""
+
+import csv
+import json
+import unittest
+
+import app_support
+
+KITCHEN = "synthetic:kitchen?frames=8&width=160&height=120"
+OFFICE = "synthetic:office?frames=8&width=160&height=120"
+TIMING_KEY = "timing"
+
+
+def without_timing(value):
+    """A document without what may differ between two equal runs."""
+    if isinstance(value, dict):
+        return {key: without_timing(part) for key, part in value.items() if key not in (TIMING_KEY, "machine", "threads")}
+    return [without_timing(part) for part in value] if isinstance(value, list) else value
+
+
+class SceneTest(app_support.AppTest):
+    def run_json(self, *arguments):
+        self.check_success(*arguments, "--json", "results.json")
+        return json.loads((self.folder / "results.json").read_text())
+
+    def make_scene(self, name="desk", training=(1,), tests=(2,), num_frames=4):
+        """The folder of a 7-Scenes scene."""
+        scene = self.folder / name
+        scene.mkdir()
+        for number in {*training, *tests}:
+            app_support.write_seven_scenes(scene / f"seq-{number:02d}", num_frames)
+        (scene / "TrainSplit.txt").write_text("".join(f"sequence{n}\n" for n in training))
+        (scene / "TestSplit.txt").write_text("".join(f"sequence{n}\n" for n in tests))
+        return scene
+
+
+class AdaptTest(SceneTest):
+    arguments = ["adapt", "--scene", KITCHEN, "--scene", "desk=" + OFFICE, "--method", "forest,ferns", "--settle", 2]
+
+    def test_a_run_for_each_forest_and_scene_and_averages_of_them(self):
+        results = self.run_json(*self.arguments, "--forest", "default", "--forest", "coarse=random", "--csv", "frames.csv")
+        self.assertEqual(results["protocol"], "adapt")
+        self.assertEqual([scene["name"] for scene in results["scenes"]], ["kitchen", "desk"])
+        self.assertEqual([(f["name"], f["file"]) for f in results["forests"]], [("default", "default"), ("coarse", "random")])
+        rows = [(run["forest"], run["method"], run["scene"]) for run in results["runs"]]
+        expected = [(f, m, s) for f, m in [("default", "forest"), ("coarse", "forest"), (None, "ferns")] for s in ["kitchen", "desk"]]
+        self.assertEqual(rows, expected)
+        for run in results["runs"]:
+            self.assertEqual((run["num_trained"], run["num_tested"]), (8, 8))
+            self.assertEqual(sum(b["num_frames"] for b in run["novelty"]), 8)
+            self.assertLessEqual(run["timing"]["relocalise_ms"]["median"], run["timing"]["relocalise_ms"]["p95"])
+        for average in results["averages"]:
+            runs = [r for r in results["runs"] if (r["forest"], r["method"]) == (average["forest"], average["method"])]
+            self.assertAlmostEqual(average["recall"]["5cm_5deg"], sum(r["recall"]["5cm_5deg"] for r in runs) / 2)
+        with open(self.folder / "frames.csv", newline="") as file:
+            lines = list(csv.DictReader(file))
+        self.assertEqual(len(lines), 6 * 8)
+        self.assertEqual((lines[0]["scene"], lines[0]["forest"], lines[0]["method"]), ("kitchen", "default", "forest"))
+
+    def test_equal_options_give_equal_accuracy_on_any_number_of_threads(self):
+        runs = [self.run_json(*self.arguments, "--seed", 7, "--threads", threads) for threads in (1, 2)]
+        self.assertEqual(without_timing(runs[0]), without_timing(runs[1]))
+
+    def test_recordings_may_make_a_scene(self):
+        results = self.run_json("adapt", "--scene", f"half={KITCHEN}@0:4,{KITCHEN}@4:8,{KITCHEN}@2:4", "--method", "ferns")
+        tests = [KITCHEN + "@4:8", KITCHEN + "@2:4"]
+        self.assertEqual(results["scenes"], [{"name": "half", "training": [KITCHEN + "@0:4"], "tests": tests}])
+        self.check_refused("adapt", "--scene", f"half={KITCHEN},", says=["sequence"])
+
+    def test_seven_scenes_use_their_official_split(self):
+        self.make_scene(training=(1, 3), tests=(2,))
+        results = self.run_json("adapt", "--scene", "desk", "--method", "ferns")
+        self.assertEqual(results["scenes"], [{"name": "desk", "training": ["desk/seq-01", "desk/seq-03"], "tests": ["desk/seq-02"]}])
+        self.assertEqual((results["runs"][0]["num_trained"], results["runs"][0]["num_tested"]), (8, 4))
+
+    def test_an_incomplete_official_scene_gets_a_warning(self):
+        self.make_scene("chess")
+        result = self.check_success("adapt", "--scene", "chess", "--method", "ferns")
+        self.assertIn("4 test frames, but the official split of chess has 2000", result.stderr)
+
+
+class NovelTest(SceneTest):
+    def test_bins_add_up_over_scenes_and_areas_have_ratios(self):
+        results = self.run_json("novel", "--scene", KITCHEN, "--scene", OFFICE, "--method", "forest,ferns", "--settle", 2)
+        self.assertEqual(results["protocol"], "novel")
+        for name, method in results["methods"].items():
+            self.assertEqual([b["bin"] for b in method["novelty"]][::10], ["5cm_5deg", "rest"])
+            for index, total in enumerate(method["novelty"]):
+                parts = [run["novelty"][index] for run in results["runs"] if run["method"] == name]
+                self.assertEqual(total["num_frames"], sum(p["num_frames"] for p in parts))
+                self.assertEqual(total["num_found"], sum(p["num_found"] for p in parts))
+                self.assertLessEqual(total["recall_95"][0], total["recall_95"][1])
+            used = [b["recall"] for b in method["novelty"][:-1] if b["num_frames"] > 0]
+            self.assertAlmostEqual(method["area"], sum(used) / len(used))
+        self.assertEqual(list(results["area_ratios"]), ["forest / ferns", "ferns / forest"])
+
+
+class ConfidenceTest(SceneTest):
+    def test_curve_and_calibration(self):
+        results = self.run_json("confidence", "--scene", KITCHEN, "--scene", OFFICE, "--method", "forest,ferns", "--settle", 2, "--csv", "curve.csv")
+        for method in results["methods"].values():
+            self.assertEqual((method["num_samples"], method["num_findable"]), (32, 16))
+            for key in ["recall", "false_accept_rate", "num_accepted"]:
+                values = [point[key] for point in method["curve"]]
+                self.assertEqual(values, sorted(values))
+            self.assertIsNone(method["curve"][0]["threshold"])
+            self.assertEqual(method["curve"][-1]["num_accepted"], method["num_answered"])
+            self.assertEqual(sum(b["num_answers"] for b in method["calibration"]), method["num_answered"])
+            self.assertEqual(method["without_false_accepts"]["false_accepts"], 0)
+        self.assertTrue((self.folder / "curve.csv").read_text().startswith("method,threshold,"))
+
+
+class WrongSceneTest(SceneTest):
+    """Nothing runs, nothing is written, and the message says what is missing."""
+
+    def check_scene(self, *scenes, says, command="adapt"):
+        arguments = [argument for scene in scenes for argument in ("--scene", scene)]
+        refused = self.check_refused(command, *arguments, "--method", "ferns", "--json", "results.json", says=says)
+        self.assertNotIn("ferns on", refused.stderr, "a scene ran before the bad one was found")
+
+    def test_wrong_arguments(self):
+        self.check_refused("adapt", says="--scene")
+        self.check_scene("desk=", says="[NAME=]FOLDER")
+        self.check_scene("missing", says=["missing", "no such folder", "7-Scenes scene"])
+        self.check_scene("synthetic:castle", says=["castle", "kitchen"])
+        self.check_scene(KITCHEN, KITCHEN, says=["two scenes are called 'kitchen'", "NAME="])
+        self.check_refused("adapt", "--scene", KITCHEN, "--forest", "a=", says="NAME=FILE")
+        self.check_refused("adapt", "--scene", KITCHEN, "--forest", "missing.forest", says="missing.forest")
+        self.check_refused("adapt", "--scene", KITCHEN, "--forest", "default", "--forest", "default", says="two forests")
+        for command in ["novel", "confidence"]:
+            self.check_scene("missing", says="missing", command=command)
+            self.check_refused(command, "--scene", KITCHEN, "--json", "nowhere/file.json", says="nowhere")
+
+    def test_missing_split_file(self):
+        for name in ["TrainSplit.txt", "TestSplit.txt"]:
+            scene = self.make_scene("scene" + name[:2])
+            (scene / name).unlink()
+            self.check_scene(KITCHEN, scene.name, says=[name, "no such file"])
+        self.check_scene("sceneTe/seq-01", says=["TrainSplit.txt", "one of its sequences"])
+
+    def test_split_file_with_other_words(self):
+        scene = self.make_scene()
+        (scene / "TestSplit.txt").write_text("seq-02\n")
+        self.check_scene(KITCHEN, "desk", says=["TestSplit.txt", "'seq-02'", "sequenceN"])
+        (scene / "TestSplit.txt").write_text("")
+        self.check_scene("desk", says=["TestSplit.txt", "sequenceN"])
+
+    def test_missing_sequence(self):
+        scene = self.make_scene()
+        (scene / "TestSplit.txt").write_text("sequence2\nsequence7\n")
+        self.check_scene(KITCHEN, "desk", says=["seq-07", "no such folder", "TestSplit.txt lists it"])
+        (scene / "seq-07.zip").write_bytes(b"PK")
+        self.check_scene("desk", says=["seq-07.zip", "unpack"])
+
+    def test_other_numbering_of_sequences(self):
+        scene = self.make_scene()
+        (scene / "seq-02").rename(scene / "seq2")
+        self.check_scene(KITCHEN, "desk", says=["seq-02", "no such folder"])
+
+    def test_missing_frames(self):
+        for kind, number in [("depth.png", 2), ("color.png", 2), ("pose.txt", 1)]:
+            scene = self.make_scene("scene" + kind[:2])
+            (scene / "seq-02" / f"frame-{number:06d}.{kind}").unlink()
+            self.check_scene(KITCHEN, scene.name, says=[f"frame-{number:06d}.{kind}", "no such file"])
+        scene = self.make_scene("gap")
+        for file in (scene / "seq-02").glob("frame-000001.*"):
+            file.unlink()
+        self.check_scene(KITCHEN, "gap", says=["frame-000001", "without gaps"])
+
+    def test_frames_numbered_from_one(self):
+        scene = self.make_scene()
+        for number in reversed(range(4)):
+            for file in (scene / "seq-02").glob(f"frame-{number:06d}.*"):
+                file.rename(file.with_name(file.name.replace(f"{number:06d}", f"{number + 1:06d}")))
+        self.check_scene(KITCHEN, "desk", says=["frame-000000", "numbered from 0"])
+
+    def test_other_names_of_frames(self):
+        scene = self.make_scene()
+        for file in (scene / "seq-02").glob("frame-*"):
+            file.rename(file.with_name(file.name.replace("frame-00", "frame-")))
+        self.check_scene(KITCHEN, "desk", says=["seq-02"])
+
+    def test_no_poses(self):
+        scene = self.make_scene()
+        for file in (scene / "seq-02").glob("*.pose.txt"):
+            file.unlink()
+        self.check_scene(KITCHEN, "desk", says=["seq-02", "no pose"])
+
+
+if __name__ == "__main__":
+    app_support.main()
