@@ -16,9 +16,9 @@ namespace {
 
 volatile std::sig_atomic_t interrupt_requested = 0;
 
-void on_interrupt(int) {
+void on_interrupt(int signal) {
   interrupt_requested = 1;
-  std::signal(SIGINT, SIG_DFL);  // the second Ctrl-C means it
+  std::signal(signal, SIG_DFL);  // the second Ctrl-C means it
 }
 
 /// Messages go to stderr, so that stdout holds results only.
@@ -41,7 +41,8 @@ int run_app(CLI::App& app, int argc, char** argv, const std::function<int()>& bo
     spdlog::error("{}", error.what());
     return kBug;
   }
-  std::signal(SIGINT, on_interrupt);
+  interrupt_requested = 0;
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
   try {
     return body();
   } catch (const Error& error) {

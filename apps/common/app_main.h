@@ -18,16 +18,16 @@ enum ExitCode : int {
   kSuccess = 0,
   kBug = 1,           ///< an unexpected exception
   kUserError = 2,     ///< wrong arguments, settings, files or devices: the message says what was expected
-  kInterrupted = 130  ///< Ctrl-C, as shells have it
+  kInterrupted = 130  ///< Ctrl-C or SIGTERM, as shells have it for the former
 };
 
 /// Parses the command line and calls `body`. Call it last in main() and return its result.
 ///
 /// Wrong arguments and exceptions derived from foothold::Error are reported on stderr and give kUserError; any other exception gives kBug.
-/// From then on Ctrl-C makes interrupted() true; a second one kills the process.
+/// From then on Ctrl-C, the end of the terminal and SIGTERM make interrupted() true; a second one of a kind kills the process.
 int run_app(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
 
-/// True once the user has pressed Ctrl-C. Long loops ask it, tidy up and return kInterrupted.
+/// True once the user has pressed Ctrl-C, or the system wants the process to end. Long loops ask it, tidy up and return kInterrupted.
 bool interrupted();
 
 /// Prints the library's messages on stderr, for ContextOptions::log.

@@ -78,10 +78,11 @@ TEST_CASE("run_app: anything else that is thrown gives exit code 1") {
   CHECK_THAT(memory.messages, Contains("out of memory"));
 }
 
-TEST_CASE("run_app: the first Ctrl-C only raises a flag") {
-  const Outcome outcome = run({"--value", "1"}, [] {
+TEST_CASE("run_app: the first Ctrl-C, hang-up or request to end only raises a flag") {
+  const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
+  const Outcome outcome = run({"--value", "1"}, [&] {
     CHECK_FALSE(interrupted());
-    std::raise(SIGINT);
+    std::raise(signal);
     return interrupted() ? kInterrupted : kSuccess;
   });
   CHECK(outcome.exit_code == kInterrupted);

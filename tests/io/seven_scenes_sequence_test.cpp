@@ -98,6 +98,19 @@ TEST_CASE("SevenScenesWriter: depth that millimetres cannot hold becomes no meas
   CHECK(read.depth(4, 0) == 65.534F);
 }
 
+TEST_CASE("round_depth_as_recorded: changes depth to what is read back, bit by bit") {
+  const TempFolder temp;
+  RgbdFrame frame = small_frame(0);
+  for (int u = 0; u < kTestWidth; ++u) frame.depth(u, 3) = 0.7F + 0.0123456F * static_cast<float>(u);
+  frame.depth(1, 0) = -1.0F;
+  frame.depth(2, 0) = std::numeric_limits<float>::quiet_NaN();
+  frame.depth(3, 0) = 65.535F;
+  SevenScenesWriter writer(temp.path());
+  writer.write(frame);
+  round_depth_as_recorded(frame.depth);
+  CHECK(same_depth(frame.depth, open_sequence(temp.path(), Context())->load(0).depth));
+}
+
 TEST_CASE("SevenScenesWriter: refuses a folder that holds frames, and a file in the folder's place") {
   const TempFolder temp;
   write_small_recording(temp.path(), 1);

@@ -65,6 +65,20 @@ TEST_CASE("OpenNISource: delivers matching depth and colour, unmirrored, in metr
   CHECK(status.num_pairs >= 10);
 }
 
+TEST_CASE("OpenNISource: depth has the bits that a recording of it reads back") {
+  const VirtualRig rig;
+  OpenNISource source(rig_settings());
+  const RgbdFrame frame = next_frame(source);
+  int num_different = 0;
+  for (int v = 0; v < frame.depth.height(); ++v) {
+    for (int u = 0; u < frame.depth.width(); ++u) {
+      const auto depth_mm = static_cast<float>(virtual_camera::PatternSequence::depth_mm(u, v, pattern_frame(frame)));
+      num_different += frame.depth(u, v) != depth_mm / 1000.0F ? 1 : 0;
+    }
+  }
+  CHECK(num_different == 0);
+}
+
 TEST_CASE("OpenNISource: takes intrinsics from the field of view, with the principal point in the middle") {
   const VirtualRig rig;
   OpenNISource source(rig_settings());

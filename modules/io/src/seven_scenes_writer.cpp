@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/io/seven_scenes_writer.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -36,16 +37,23 @@ std::string intrinsics_text(const Intrinsics& k) {
   return number_text(k.fx) + " 0 " + number_text(k.cx) + "\n0 " + number_text(k.fy) + " " + number_text(k.cy) + "\n0 0 1\n";
 }
 
+std::uint16_t in_millimetres(float depth_m) {
+  const float millimetres = is_valid_depth(depth_m) ? std::round(depth_m * 1000.0F) : 0.0F;
+  return millimetres < 65535.0F ? static_cast<std::uint16_t>(millimetres) : std::uint16_t{0};  // 65535 means invalid
+}
+
 Image<std::uint16_t> depth_in_millimetres(const Image<float>& depth_m) {
   Image<std::uint16_t> result(depth_m.width(), depth_m.height());
-  std::transform(depth_m.data(), depth_m.data() + depth_m.size(), result.data(), [](float z) {
-    const float millimetres = is_valid_depth(z) ? std::round(z * 1000.0F) : 0.0F;
-    return millimetres < 65535.0F ? static_cast<std::uint16_t>(millimetres) : std::uint16_t{0};  // 65535 means invalid
-  });
+  std::transform(depth_m.data(), depth_m.data() + depth_m.size(), result.data(), in_millimetres);
   return result;
 }
 
 }  // namespace
+
+void round_depth_as_recorded(Image<float>& depth_m) {
+  std::transform(depth_m.data(), depth_m.data() + depth_m.size(), depth_m.data(),
+                 [](float z) { return static_cast<float>(in_millimetres(z)) / 1000.0F; });
+}
 
 SevenScenesWriter::SevenScenesWriter(const std::string& folder) : folder_(folder) {
   std::error_code error;

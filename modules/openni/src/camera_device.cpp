@@ -188,9 +188,9 @@ std::optional<openni::VideoFrameRef> CameraDevice::take(openni::VideoStream& str
 bool CameraDevice::convert(const openni::VideoFrameRef& depth, const openni::VideoFrameRef& colour, RgbdFrame& frame) const {
   const OpenNISettings& settings = options_.settings;
   if (!holds<openni::DepthPixel>(depth, settings)) return false;
-  const float unit_m = depth.getVideoMode().getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM ? 1e-4F : 1e-3F;
+  const float units_per_m = depth.getVideoMode().getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM ? 10000.0F : 1000.0F;
   copy_image<openni::DepthPixel>(depth, depth_mirrored_, frame.depth,
-                                 [unit_m](openni::DepthPixel z) { return unit_m * static_cast<float>(z); });
+                                 [units_per_m](openni::DepthPixel z) { return static_cast<float>(z) / units_per_m; });
   if (has_colour()) {
     if (!holds<openni::RGB888Pixel>(colour, settings)) return false;
     copy_image<openni::RGB888Pixel>(colour, colour_mirrored_, frame.colour, [](const openni::RGB888Pixel& c) {
