@@ -22,6 +22,8 @@ Command add_split_command(CLI::App& app);
 Command add_adapt_command(CLI::App& app);
 /// "novel": recall against the distance to the nearest learnt view. Reference: [Cavallari2017] Sec. 4.3.
 Command add_novel_command(CLI::App& app);
+/// "time": what learning and finding cost, and how it grows. Reference: [Cavallari2017] Sec. 4.4, Table 3.
+Command add_time_command(CLI::App& app);
 /// "confidence": false accepts against recall, and calibration.
 Command add_confidence_command(CLI::App& app);
 

@@ -112,6 +112,36 @@ class ConfidenceTest(SceneTest):
         self.assertTrue((self.folder / "curve.csv").read_text().startswith("method,threshold,"))
 
 
+class TimeTest(SceneTest):
+    arguments = ["time", "--sequence", KITCHEN, "--train-frames", 4, "--test-frames", 2]
+
+    def test_stages_and_sweeps(self):
+        results = self.run_json(*self.arguments, "--method", "forest,ferns", "--sweep", "forest,ferns", "--csv", "sweeps.csv")
+        self.assertEqual(results["protocol"], "time")
+        for method in results["methods"].values():
+            self.assertEqual((method["num_trained"], method["num_tested"]), (4, 2))
+            self.assertLessEqual(method["timing"]["train_ms"]["median"], method["timing"]["train_ms"]["p95"])
+        self.assertIn("train/cluster", results["methods"]["forest"]["timing"]["stages_ms"])
+        swept = {(s["method"], s["quantity"]): [p["value"] for p in s["points"]] for s in results["sweeps"]}
+        self.assertEqual(swept[("forest", "trained_frames")], [1, 2, 4])
+        self.assertEqual(swept[("ferns", "image_width_px")], [40, 80, 160])
+        self.assertEqual(swept[("forest", "hypotheses")], [64, 128, 256, 512, 1024, 2048])
+        self.assertEqual(swept[("forest", "leaves")][0], 5 * 2**7)
+        self.assertNotIn(("ferns", "leaves"), swept)
+        points = sum(len(values) for values in swept.values())
+        self.assertEqual(len((self.folder / "sweeps.csv").read_text().splitlines()), 1 + points)
+
+    def test_accuracy_is_equal_where_time_is_not(self):
+        runs = [self.run_json(*self.arguments, "--threads", threads) for threads in (1, 2)]
+        self.assertEqual(without_timing(runs[0]), without_timing(runs[1]))
+
+    def test_wrong_arguments(self):
+        self.check_refused("time", "--sequence", KITCHEN, "--train-frames", 7, "--test-frames", 2, says=["8 frames", "at least 9"])
+        self.check_refused("time", "--sequence", KITCHEN, "--sweep", "trees", says=["trees", "forest"])
+        self.check_refused("time", says="--sequence")
+        self.assertEqual(self.run_json(*self.arguments, "--sweep", "none")["sweeps"], [])
+
+
 class WrongSceneTest(SceneTest):
     """Nothing runs, nothing is written, and the message says what is missing."""
 

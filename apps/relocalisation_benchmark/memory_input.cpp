@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "memory_input.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "foothold/base/contract.h"
+
+namespace foothold::benchmark {
+namespace {
+
+class MemorySource : public FrameSource {
+ public:
+  explicit MemorySource(FrameList frames) : frames_(std::move(frames)) {}
+  ReadStatus read(RgbdFrame& frame) override {
+    if (next_ == frames_.size()) return ReadStatus::kEnd;
+    frame = *frames_[next_++];
+    return ReadStatus::kFrame;
+  }
+
+ private:
+  FrameList frames_;
+  std::size_t next_ = 0;
+};
+
+/// The mean colour of a block of pixels.
+Rgb8 mean_colour(const Image<Rgb8>& colour, int first_u, int first_v, int size) {
+  int r = 0;
+  int g = 0;
+  int b = 0;
+  for (int v = first_v; v < first_v + size; ++v) {
+    for (int u = first_u; u < first_u + size; ++u) {
+      const Rgb8 pixel = colour(u, v);
+      r += pixel.r;
+      g += pixel.g;
+      b += pixel.b;
+    }
+  }
+  const int count = size * size;
+  return {static_cast<std::uint8_t>(r / count), static_cast<std::uint8_t>(g / count), static_cast<std::uint8_t>(b / count)};
+}
+
+}  // namespace
+
+EvaluationInput memory_input(const std::string& name, FrameList frames) {
+  const int num_frames = static_cast<int>(frames.size());
+  return {name, num_frames,
+          [frames = std::move(frames)]() -> std::unique_ptr<FrameSource> { return std::make_unique<MemorySource>(frames); }};
+}
+
+RgbdFrame reduce_frame(const RgbdFrame& frame, int divisor) {
+  FOOTHOLD_EXPECTS(divisor > 0 && divisor <= std::min(frame.depth.width(), frame.depth.height()));
+  const int width = frame.depth.width() / divisor;
+  const int height = frame.depth.height() / divisor;
+  RgbdFrame reduced;
+  reduced.depth = Image<float>(width, height);
+  reduced.colour = Image<Rgb8>(width, height);
+  reduced.calibration = frame.calibration;
+  reduced.calibration.depth = frame.calibration.depth.scaled(1.0F / static_cast<float>(divisor));
+  reduced.calibration.colour = frame.calibration.colour.scaled(1.0F / static_cast<float>(divisor));
+  reduced.index = frame.index;
+  reduced.timestamp_s = frame.timestamp_s;
+  reduced.world_from_camera = frame.world_from_camera;
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      reduced.depth(u, v) = frame.depth(u * divisor + divisor / 2, v * divisor + divisor / 2);
+      reduced.colour(u, v) = mean_colour(frame.colour, u * divisor, v * divisor, divisor);
+    }
+  }
+  return reduced;
+}
+
+}  // namespace foothold::benchmark

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Frames held in memory, so that decoding does not disturb what is timed.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "foothold/evaluation/protocol.h"
+
+namespace foothold::benchmark {
+
+using FrameList = std::vector<std::shared_ptr<const RgbdFrame>>;
+
+/// Plays frames that are in memory.
+EvaluationInput memory_input(const std::string& name, FrameList frames);
+
+/// The frame as a camera of `1 / divisor` times the resolution would see it: depth of one pixel of each block, colour averaged.
+/// @pre divisor > 0 and at most the frame's smaller side.
+RgbdFrame reduce_frame(const RgbdFrame& frame, int divisor);
+
+}  // namespace foothold::benchmark
