@@ -13,6 +13,7 @@
 #include "foothold/base/checksum.h"
 #include "foothold/base/contract.h"
 #include "pose/confidence.h"
+#include "pose/explain.h"
 #include "pose/pose_estimator.h"
 #include "reservoirs/leaf_reservoirs.h"
 
@@ -160,6 +161,12 @@ std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) {
     estimates.push_back({world_from_camera, estimates.empty() ? confidence : std::min(confidence, estimates.front().confidence)});
   }
   return estimates;
+}
+
+Explanation ForestRelocaliser::explain(const Frame& frame) {
+  const std::vector<PoseEstimate> estimates = relocalise(frame);
+  if (estimates.empty()) return {};
+  return foothold::explain(state_->estimator, estimates, state_->reservoirs.origin_world());
 }
 
 void ForestRelocaliser::reset() {

@@ -85,6 +85,9 @@ class PoseEstimator {
     Array<PoseCandidate> candidates;
   };
 
+  /// What the last call of estimate() left behind.
+  const Buffers& buffers() const { return buffers_; }
+
  private:
   PoseEstimatorSettings settings_;
   Buffers buffers_;

@@ -8,6 +8,7 @@
 
 #include "foothold/api/relocaliser.h"
 #include "foothold/base/context.h"
+#include "foothold/relocalisation/explanation.h"
 #include "foothold/relocalisation/forest.h"
 #include "foothold/relocalisation/settings.h"
 
@@ -34,6 +35,10 @@ class ForestRelocaliser final : public Relocaliser, public Persistent {
   void reset() override;
   std::size_t state_bytes() const override;
   float acceptance_threshold() const override;
+
+  /// Relocalises a frame as relocalise() does, and tells what there was to choose from; empty if there was nothing. For looking into
+  /// failures: copies tens of thousands of modes. @pre As for relocalise().
+  Explanation explain(const Frame& frame);
 
   void save(std::ostream& stream) const override;
   void load(std::istream& stream) override;

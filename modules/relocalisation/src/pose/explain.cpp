@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "pose/explain.h"
+
+#include <Eigen/LU>
+
+#include "foothold/base/contract.h"
+
+namespace foothold {
+namespace {
+
+ExplainedMode explain_mode(const Mode& mode, const Eigen::Vector3f& origin_world) {
+  const float* p = mode.precision;
+  Eigen::Matrix3f precision;
+  precision << p[0], p[1], p[2], p[1], p[3], p[4], p[2], p[4], p[5];
+  ExplainedMode explained;
+  explained.mean_world = Eigen::Vector3f(mode.mean_m[0], mode.mean_m[1], mode.mean_m[2]) + origin_world;
+  explained.covariance_world = precision.inverse();
+  explained.colour = {mode.rgb[0], mode.rgb[1], mode.rgb[2]};
+  explained.num_points = static_cast<int>(mode.num_points);
+  return explained;
+}
+
+}  // namespace
+
+Explanation explain(const PoseEstimator& estimator, const std::vector<PoseEstimate>& estimates, const Eigen::Vector3f& origin_world) {
+  const PoseEstimator::Buffers& buffers = estimator.buffers();
+  Explanation explanation;
+  for (const PoseCandidate& candidate : buffers.candidates.to_host()) {
+    if (candidate.valid == 0) continue;
+    FOOTHOLD_EXPECTS(explanation.candidates.size() < estimates.size());
+    const PoseEstimate& estimate = estimates[explanation.candidates.size()];
+    explanation.candidates.push_back({estimate.world_from_camera, estimate.confidence, candidate.mean_energy, candidate.inlier_fraction});
+  }
+  const std::vector<PooledPixel> pixels = buffers.pixels.to_host();
+  const std::size_t num_pixels = buffers.slots.to_host().back();
+  const std::vector<Mode> modes = buffers.modes.to_host();
+  for (std::size_t i = 0; i < num_pixels; ++i) {
+    const PooledPixel& pixel = pixels[i];
+    explanation.pixels.push_back({{pixel.point_camera[0], pixel.point_camera[1], pixel.point_camera[2]},
+                                  {pixel.rgb[0], pixel.rgb[1], pixel.rgb[2]},
+                                  explanation.modes.size(),
+                                  pixel.num_modes});
+    for (std::size_t m = 0; m < pixel.num_modes; ++m) explanation.modes.push_back(explain_mode(modes[pixel.first_mode + m], origin_world));
+  }
+  return explanation;
+}
+
+}  // namespace foothold
