@@ -74,11 +74,13 @@ int num_frames_of(const std::vector<EvaluationInput>& inputs) {
   return sum;
 }
 
-/// An incomplete download is worth a word, though not an error: a part of a scene may be wanted.
+/// An incomplete download is worth a word, though not an error: a part of a scene may be wanted. The data set comes without calibration
+/// files, by which other scenes of the same name differ.
 void warn_if_incomplete(const CommonOptions& options, const Scene& scene, const std::string& folder) {
   const auto official = official_test_frames().find(default_name(folder));
   const int num_frames = num_frames_of(scene.tests);
   if (official == official_test_frames().end() || options.stride != 1 || num_frames == official->second) return;
+  if (std::filesystem::exists(std::filesystem::path(scene.tests.front().name) / "camera-intrinsics.txt")) return;
   apps::log_to_stderr()(LogLevel::kWarning, folder + ": " + std::to_string(num_frames) + " test frames, but the official split of " +
                                                 official->first + " has " + std::to_string(official->second) +
                                                 "; is every sequence unpacked?");
