@@ -3,12 +3,11 @@
 /// Feeds frames in host memory to a relocaliser that works in its device's.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <vector>
 
+#include "foothold/api/frame_uploader.h"
 #include "foothold/api/relocaliser.h"
-#include "foothold/base/array.h"
 #include "foothold/base/context.h"
 
 namespace foothold::benchmark {
@@ -27,13 +26,8 @@ class UploadingRelocaliser : public Relocaliser {
   float acceptance_threshold() const override { return relocaliser_->acceptance_threshold(); }
 
  private:
-  /// The frame in the context's memory, valid until the next call. @pre The frame is in host memory.
-  Frame upload(const Frame& frame);
-
-  Context context_;
   std::unique_ptr<Relocaliser> relocaliser_;
-  Array<float> depth_;
-  Array<std::uint8_t> colour_;
+  FrameUploader uploader_;
 };
 
 }  // namespace foothold::benchmark

@@ -102,7 +102,7 @@ TEST_CASE("solve_damped: solves what Eigen's LDLT solves") {
     Matrix6d root;
     for (int i = 0; i < 36; ++i) root(i / 6, i % 6) = random.uniform(-1.0F, 1.0F);
     const Matrix6d h = root * root.transpose() * 100.0 + Matrix6d::Identity();
-    float sums[kNumSums] = {};
+    float sums[kNumRefinementSums] = {};
     Matrix6d damped = Matrix6d::Zero();
     Vector6d gradient;
     const float lambda = repeat % 2 == 0 ? 0.0F : random.uniform(0.0F, 2.0F);
@@ -123,9 +123,9 @@ TEST_CASE("solve_damped: solves what Eigen's LDLT solves") {
 
 TEST_CASE("solve_damped: refuses matrices that are not positive definite") {
   float x[6];
-  const float zeros[kNumSums] = {};
+  const float zeros[kNumRefinementSums] = {};
   REQUIRE_FALSE(solve_damped(zeros, 1e-3F, x));
-  float sums[kNumSums] = {};
+  float sums[kNumRefinementSums] = {};
   const int diagonal[6] = {0, 6, 11, 15, 18, 20};
   for (int i = 0; i < 6; ++i) sums[diagonal[i]] = 1.0F;
   REQUIRE(solve_damped(sums, 0.0F, x));

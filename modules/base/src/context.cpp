@@ -5,6 +5,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <cstring>
 #include <thread>
 
 #include "cuda_backend.h"
@@ -27,7 +28,7 @@ Context::Context(const ContextOptions& options) {
   state_->options = options;
   if (options.num_threads == 0) state_->options.num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   state_->arena.initialize(state_->options.num_threads);
-  if (options.device == Device::kCuda) state_->cuda = detail::make_cuda_stream();
+  if (options.device == Device::kCuda) state_->cuda = detail::make_cuda_stream(options.cuda_stream);
 }
 
 Device Context::device() const { return state_->options.device; }
@@ -45,6 +46,22 @@ void Context::synchronise() const {
 }
 
 void* detail::cuda_scratch(const Context& context, std::size_t num_bytes) { return context.state_->cuda->scratch(num_bytes); }
+
+void detail::read_memory(const Context& context, void* host, const void* device, std::size_t num_bytes) {
+  if (context.state_->cuda) {
+    context.state_->cuda->read(host, device, num_bytes);
+  } else {
+    std::memcpy(host, device, num_bytes);
+  }
+}
+
+void detail::write_memory(const Context& context, void* device, const void* host, std::size_t num_bytes) {
+  if (context.state_->cuda) {
+    context.state_->cuda->write(device, host, num_bytes);
+  } else {
+    std::memcpy(device, host, num_bytes);
+  }
+}
 
 bool cuda_available(std::string* reason) { return detail::cuda_backend_available(reason); }
 

@@ -6,10 +6,11 @@
 
 namespace foothold::detail {
 namespace {
-constexpr const char* kReason = "this build of Foothold has no CUDA; configure with FOOTHOLD_CUDA=ON on a machine with nvcc";
+constexpr const char* kReason =
+    "this build of Foothold has no CUDA; configure it with FOOTHOLD_CUDA=ON on a machine with nvcc, or compute on the cpu";
 }  // namespace
 
-std::unique_ptr<CudaStream> make_cuda_stream() { throw DeviceError(kReason); }
+std::unique_ptr<CudaStream> make_cuda_stream(const std::optional<void*>&) { throw DeviceError(kReason); }
 bool cuda_backend_available(std::string* reason) {
   if (reason != nullptr) *reason = kReason;
   return false;

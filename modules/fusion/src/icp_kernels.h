@@ -78,7 +78,7 @@ struct SumChunk {
       totals[j] = 0.0F;
       for (int i = 0; i < kWidth; ++i) totals[j] += sums[j][i];
     }
-    team.sum_all(totals, kNumSums);
+    team.sum_all(totals);
     for (int j = team.lane(); j < kNumSums; j += team.size()) chunk_sums[chunk * kNumSums + static_cast<std::size_t>(j)] = totals[j];
   }
 
@@ -259,6 +259,17 @@ struct SolveStep {
   }
 };
 
+/// Starts an alignment.
+struct BeginIcp {
+  IcpState* state;
+  PackedPose model_from_camera;
+
+  FOOTHOLD_HD void operator()(std::size_t) const {
+    *state = {};
+    state->model_from_camera = model_from_camera;
+  }
+};
+
 /// Starts a level from the best pose of the one before.
 struct BeginLevel {
   IcpState* state;
@@ -286,10 +297,8 @@ IcpState IcpOps<kDevice>::align(const Context& context, const IcpSettings& setti
   using Exec = typename ExecutorOf<kDevice>::Type;
   constexpr int kWidth = Exec::kVectorWidth;
   const Exec exec(context);
-  IcpState initial{};
-  initial.model_from_camera = PackedPose::pack(model_from_camera);
-  scratch.state.assign(Span<const IcpState>(&initial, 1));
   IcpState* const state = scratch.state.data();
+  exec.for_each(1, BeginIcp{state, PackedPose::pack(model_from_camera)});
   for (int l = settings.coarsest_level; l >= settings.finest_level; --l) {
     const DepthLevel& live = scratch.levels[l];
     const float t =
@@ -315,8 +324,7 @@ IcpState IcpOps<kDevice>::align(const Context& context, const IcpSettings& setti
       }
     }
   }
-  exec.synchronise();
-  return scratch.state.to_host()[0];
+  return scratch.state.read(context, 0);
 }
 
 }  // namespace foothold

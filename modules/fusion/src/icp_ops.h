@@ -50,7 +50,7 @@ struct IcpState {
 };
 
 struct IcpTracker::Scratch {
-  explicit Scratch(MemoryKind memory) : state(memory), chunk_sums(memory) {}
+  explicit Scratch(MemoryKind memory) : state(memory, 1), chunk_sums(memory) {}
 
   DepthLevel levels[kMaxIcpLevels];
   std::vector<Array<float>> depths_m;  ///< of levels 1, 2, ...

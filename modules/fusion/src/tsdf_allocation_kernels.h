@@ -75,6 +75,13 @@ struct CompactKeys {
   }
 };
 
+struct CopyKeys {
+  const std::uint64_t* from;
+  std::uint64_t* to;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const { to[i] = from[i]; }
+};
+
 /// Flags the first of equal neighbours in a sorted list.
 struct FlagFirstOfEqual {
   const std::uint64_t* keys;

@@ -116,7 +116,7 @@ struct IntegrateBlock {
       if (update(block, first, voxels)) colour_voxels(block, first, voxels, corner_world);
       count_near_surface(first, voxels, num_near_surface);
     }
-    team.sum_all(num_near_surface, 8);
+    team.sum_all(num_near_surface);
     if (team.lane() != 0) return;
     unsigned octants = 0;
     for (int octant = 0; octant < 8; ++octant) octants |= (num_near_surface[octant] > 0 ? 1U : 0U) << static_cast<unsigned>(octant);

@@ -8,21 +8,6 @@
 
 namespace foothold {
 
-namespace detail {
-/// One element of an array, wherever it lives; waits for the device.
-template <class Exec, class T>
-T read_element(const Exec& exec, const Array<T>& array, std::size_t i) {
-  if constexpr (Exec::kMemory == MemoryKind::kHost) {
-    return array[i];
-  } else {
-    exec.synchronise();
-    T value;
-    copy_memory(MemoryKind::kHost, &value, array.memory(), array.data() + i, sizeof(T));
-    return value;
-  }
-}
-}  // namespace detail
-
 template <Device kDevice>
 int TsdfOps<kDevice>::find_new_blocks(const Context& context, const TsdfView& volume, const PosedDepth& camera, int stride_px,
                                       Scratch& scratch) {
@@ -40,7 +25,7 @@ int TsdfOps<kDevice>::find_new_blocks(const Context& context, const TsdfView& vo
                 CollectWantedBlocks{volume, camera, stride_px, num_columns, num_steps, scratch.candidates.data(), scratch.wanted.data()});
   exec.exclusive_scan(Span<const std::uint32_t>(scratch.wanted.data(), num_candidates),
                       Span<std::uint32_t>(scratch.offsets.data(), num_candidates + 1));
-  const std::size_t num_wanted = detail::read_element(exec, scratch.offsets, num_candidates);
+  const std::size_t num_wanted = scratch.offsets.read(context, num_candidates);
   if (num_wanted == 0) return 0;
 
   scratch.keys.resize(num_wanted);
@@ -51,10 +36,9 @@ int TsdfOps<kDevice>::find_new_blocks(const Context& context, const TsdfView& vo
   exec.for_each(num_wanted, FlagFirstOfEqual{scratch.keys.data(), scratch.flags.data()});
   exec.exclusive_scan(Span<const std::uint32_t>(scratch.flags.data(), num_wanted),
                       Span<std::uint32_t>(scratch.unique_offsets.data(), num_wanted + 1));
-  const std::size_t num_unique = detail::read_element(exec, scratch.unique_offsets, num_wanted);
+  const std::size_t num_unique = scratch.unique_offsets.read(context, num_wanted);
   scratch.new_keys.resize(num_unique);
   exec.for_each(num_wanted, CompactKeys{scratch.keys.data(), scratch.flags.data(), scratch.unique_offsets.data(), scratch.new_keys.data()});
-  exec.synchronise();
   return static_cast<int>(num_unique);
 }
 
@@ -64,16 +48,16 @@ void TsdfOps<kDevice>::rebuild_table(const Context& context, const TsdfView& vol
   exec.for_each(std::size_t{1} << static_cast<unsigned>(volume.log2_slots), ClearSlots{tables.slot_keys});
   exec.for_each(static_cast<std::size_t>(volume.num_blocks),
                 InsertBlocks{volume.block_keys, tables.slot_keys, tables.slot_blocks, volume, 0});
-  exec.synchronise();
 }
 
 template <Device kDevice>
-void TsdfOps<kDevice>::add_blocks(const Context& context, const TsdfView& volume, const TsdfTables& tables, int first) {
+void TsdfOps<kDevice>::add_blocks(const Context& context, const TsdfView& volume, const TsdfTables& tables, int first,
+                                  const Scratch& scratch) {
   const typename ExecutorOf<kDevice>::Type exec(context);
   const auto count = static_cast<std::size_t>(volume.num_blocks - first);
+  exec.for_each(count, CopyKeys{scratch.new_keys.data(), tables.block_keys + first});
   exec.template for_each_team<NoScratch>(count, ClearBlocks{volume, tables.surface_octants, first});
   exec.for_each(count, InsertBlocks{volume.block_keys, tables.slot_keys, tables.slot_blocks, volume, first});
-  exec.synchronise();
 }
 
 template <Device kDevice>
@@ -91,7 +75,6 @@ void TsdfOps<kDevice>::integrate(const Context& context, const TsdfView& volume,
       static_cast<std::size_t>(volume.num_blocks),
       IntegrateBlock<kWidth>{volume, camera, camera.world_from_camera.inverse(), colour.image, colour.intrinsics, colour.colour_from_world,
                              scratch.tile_depths_m.data(), num_columns, max_weight, tables.surface_octants});
-  exec.synchronise();
 }
 
 }  // namespace foothold

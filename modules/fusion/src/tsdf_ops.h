@@ -43,6 +43,7 @@ struct PosedColour {
 
 /// The hash table and flags of a volume, writable.
 struct TsdfTables {
+  std::uint64_t* block_keys = nullptr;
   std::uint64_t* slot_keys = nullptr;
   std::int32_t* slot_blocks = nullptr;
   std::uint8_t* surface_octants = nullptr;
@@ -56,8 +57,8 @@ struct TsdfOps {
   static int find_new_blocks(const Context& context, const TsdfView& volume, const PosedDepth& camera, int stride_px, Scratch& scratch);
   /// Empties the hash table and enters all blocks.
   static void rebuild_table(const Context& context, const TsdfView& volume, const TsdfTables& tables);
-  /// Clears blocks [first, volume.num_blocks) and enters them into the hash table.
-  static void add_blocks(const Context& context, const TsdfView& volume, const TsdfTables& tables, int first);
+  /// Gives blocks [first, volume.num_blocks) the keys in scratch.new_keys, clears them and enters them into the hash table.
+  static void add_blocks(const Context& context, const TsdfView& volume, const TsdfTables& tables, int first, const Scratch& scratch);
   /// Averages a frame into every block it sees.
   static void integrate(const Context& context, const TsdfView& volume, const TsdfTables& tables, const PosedDepth& camera,
                         const PosedColour& colour, int max_weight, Scratch& scratch);

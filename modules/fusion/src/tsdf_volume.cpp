@@ -12,6 +12,8 @@ namespace foothold {
 namespace {
 /// Slots of the hash table of an empty map.
 constexpr int kMinLog2Slots = 12;
+/// Pages that a map on a CUDA device begins with: 25 MB.
+constexpr std::size_t kFirstCudaPages = 16;
 /// Poses read from text files are rigid to about this much.
 constexpr float kRigidTolerance = 1e-3F;
 }  // namespace
@@ -47,7 +49,7 @@ TsdfVolume::TsdfVolume(const TsdfVolume& other) : TsdfVolume(other, other.contex
 
 TsdfVolume::TsdfVolume(const TsdfVolume& other, const Context& context) : TsdfVolume(context, other.settings_) {
   reserve_blocks(std::max(1, other.num_blocks_));
-  for (std::size_t page = 0; page < other.pages_.size(); ++page) {
+  for (std::size_t page = 0; page < std::min(pages_.size(), other.pages_.size()); ++page) {
     detail::copy_memory(context_.memory(), pages_[page].data(), other.context_.memory(), other.pages_[page].data(), pages_[page].size());
   }
   const auto count = static_cast<std::size_t>(other.num_blocks_);
@@ -114,8 +116,10 @@ void TsdfVolume::fill_page_table() {
 
 void TsdfVolume::reserve_blocks(int num_blocks) {
   const auto count = static_cast<std::size_t>(num_blocks);
-  const std::size_t num_pages = (count + kPageBlocks - 1) / kPageBlocks;
+  std::size_t num_pages = (count + kPageBlocks - 1) / kPageBlocks;
   if (num_pages > pages_.size()) {
+    // Allocating on a device stops it: a few frames bear that, not many. The host's pages are cheap.
+    if (context_.memory() == MemoryKind::kCuda) num_pages = std::max(num_pages, pages_.size() + pages_.size() / 2 + kFirstCudaPages);
     while (pages_.size() < num_pages) pages_.emplace_back(context_.memory(), kPageBlocks * sizeof(VoxelBlock));
     fill_page_table();
   }
@@ -133,7 +137,7 @@ void TsdfVolume::reserve_blocks(int num_blocks) {
 }
 
 void TsdfVolume::rebuild_table() {
-  const TsdfTables tables{slot_keys_.data(), slot_blocks_.data(), surface_octants_.data()};
+  const TsdfTables tables{block_keys_.data(), slot_keys_.data(), slot_blocks_.data(), surface_octants_.data()};
   dispatch<TsdfOps>(context_, [&](auto ops) { ops.rebuild_table(context_, view(), tables); });
 }
 
@@ -154,7 +158,7 @@ IntegrationStats TsdfVolume::integrate(const Frame& frame, const SE3& world_from
   const ScopedStage stage(context_, "fusion/integrate");
   const SE3 colour_from_world = frame.calibration.depth_from_colour.inverse() * world_from_camera.inverse();
   const PosedColour colour{frame.colour, frame.calibration.colour, colour_from_world};
-  const TsdfTables tables{slot_keys_.data(), slot_blocks_.data(), surface_octants_.data()};
+  const TsdfTables tables{block_keys_.data(), slot_keys_.data(), slot_blocks_.data(), surface_octants_.data()};
   dispatch<TsdfOps>(context_, [&](auto ops) { ops.integrate(context_, view(), tables, camera, colour, settings_.max_weight, *scratch_); });
   return stats;
 }
@@ -162,11 +166,9 @@ IntegrationStats TsdfVolume::integrate(const Frame& frame, const SE3& world_from
 void TsdfVolume::add_blocks(int num_new) {
   const int first = num_blocks_;
   reserve_blocks(first + num_new);
-  detail::copy_memory(context_.memory(), block_keys_.data() + first, context_.memory(), scratch_->new_keys.data(),
-                      static_cast<std::size_t>(num_new) * sizeof(std::uint64_t));
   num_blocks_ = first + num_new;
-  const TsdfTables tables{slot_keys_.data(), slot_blocks_.data(), surface_octants_.data()};
-  dispatch<TsdfOps>(context_, [&](auto ops) { ops.add_blocks(context_, view(), tables, first); });
+  const TsdfTables tables{block_keys_.data(), slot_keys_.data(), slot_blocks_.data(), surface_octants_.data()};
+  dispatch<TsdfOps>(context_, [&](auto ops) { ops.add_blocks(context_, view(), tables, first, *scratch_); });
 }
 
 }  // namespace foothold

@@ -12,6 +12,7 @@
 namespace foothold {
 
 inline constexpr int kMaxReservoir = 1024;  ///< of ReservoirSettings::capacity
+inline constexpr int kMaxModes = 64;        ///< of ClusteringSettings::max_modes
 static_assert(kMaxReservoir % 16 == 0, "points are processed in vectors");
 
 /// Shared by the lanes of a team: the points of one leaf and what becomes of them.
@@ -22,8 +23,9 @@ struct QuickShiftScratch {
   float z_mm[kMaxReservoir];
   float density[kMaxReservoir];
   std::uint16_t source[kMaxReservoir];  ///< position in the reservoir
-  std::int32_t parent[kMaxReservoir];   ///< later the root, later the rank of the cluster
-  std::int32_t size[kMaxReservoir];     ///< of the cluster whose root this is; negative once the cluster has a rank
+  std::int32_t parent[kMaxReservoir];   ///< later the root of the cluster
+  std::int32_t size[kMaxReservoir];     ///< of the cluster whose root this is; 0 once the cluster has a rank
+  std::int32_t root[kMaxModes];         ///< of the cluster of each rank
 };
 
 /// exp(-t) for t in [0, 4.5], to 0.7 %: the eighth power of a short series, in operations that every device rounds alike.
@@ -35,13 +37,8 @@ FOOTHOLD_HD FOOTHOLD_INLINE float exp_minus(float t) {
   return e4 * e4;
 }
 
-/// Sums of a cluster's members relative to its root: integers, so that their order does not matter.
-struct ClusterSums {
-  std::int64_t count = 0;
-  std::int64_t x = 0, y = 0, z = 0;
-  std::int64_t xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  std::int64_t r = 0, g = 0, b = 0;
-};
+/// Sums over a cluster's members relative to its root: integers, so that their order does not matter.
+enum ClusterSum { kCount, kX, kY, kZ, kXx, kXy, kXz, kYy, kYz, kZz, kRed, kGreen, kBlue, kNumClusterSums };
 
 /// Finds the modes of one leaf.
 template <class Team, int kWidth>
@@ -77,13 +74,17 @@ struct QuickShift {
   FOOTHOLD_HD void load_keys() const {
     int low[3] = {32767, 32767, 32767};
     int high[3] = {-32768, -32768, -32768};
-    for (int i = 0; i < num_points; ++i) {
+    for (int i = team.lane(); i < num_points; i += team.size()) {
       const ReservoirPoint point = reservoirs.point(leaf, i);
       const int coordinates[3] = {point.x_mm, point.y_mm, point.z_mm};
       for (int k = 0; k < 3; ++k) {
         low[k] = coordinates[k] < low[k] ? coordinates[k] : low[k];
         high[k] = coordinates[k] > high[k] ? coordinates[k] : high[k];
       }
+    }
+    for (int k = 0; k < 3; ++k) {
+      low[k] = team.lowest(low[k]);
+      high[k] = team.highest(high[k]);
     }
     int axis = high[1] - low[1] > high[0] - low[0] ? 1 : 0;
     if (high[2] - low[2] > high[axis] - low[axis]) axis = 2;
@@ -192,28 +193,29 @@ struct QuickShift {
     for (int i = team.lane(); i < num_points; i += team.size()) team.fetch_add(s.size[s.parent[i]], 1);
   }
 
-  /// Gives the largest clusters their ranks: size[root] becomes -(rank + 1). Ties go to the lower root.
+  /// Gives the largest clusters their ranks. Ties go to the lower root.
   FOOTHOLD_HD int rank_clusters() const {
     int num_modes = 0;
     for (; num_modes < settings.max_modes; ++num_modes) {
+      std::int32_t best = 0;  // size above, root below, so that the highest is the largest cluster with the lowest root
+      for (int i = team.lane(); i < num_points; i += team.size()) {
+        const std::int32_t candidate = s.size[i] * kMaxReservoir + (kMaxReservoir - 1 - i);
+        best = candidate > best ? candidate : best;
+      }
+      best = team.highest(best);
+      if (best / kMaxReservoir < settings.min_cluster_size) break;
       if (team.lane() == 0) {
-        int best = 0;
-        for (int i = 1; i < num_points; ++i) best = s.size[i] > s.size[best] ? i : best;
-        s.density[0] = s.size[best] >= settings.min_cluster_size ? 1.0F : 0.0F;  // densities have served; slot 0 tells the other lanes
-        if (s.density[0] > 0.0F) s.size[best] = -(num_modes + 1);
+        s.root[num_modes] = kMaxReservoir - 1 - best % kMaxReservoir;
+        s.size[s.root[num_modes]] = 0;
       }
       team.sync();
-      const bool found = s.density[0] > 0.0F;
-      team.sync();
-      if (!found) break;
     }
     return num_modes;
   }
 
   FOOTHOLD_HD void summarise(int rank, Mode& mode) const {
-    ClusterSums sums;
-    int root = 0;
-    while (s.size[root] != -(rank + 1)) ++root;
+    std::int64_t sums[kNumClusterSums] = {};
+    const std::int32_t root = s.root[rank];
     const auto root_x = static_cast<std::int64_t>(s.x_mm[root]);
     const auto root_y = static_cast<std::int64_t>(s.y_mm[root]);
     const auto root_z = static_cast<std::int64_t>(s.z_mm[root]);
@@ -223,38 +225,39 @@ struct QuickShift {
       const auto y = static_cast<std::int64_t>(s.y_mm[i]) - root_y;
       const auto z = static_cast<std::int64_t>(s.z_mm[i]) - root_z;
       const std::uint16_t colour = reservoirs.point(leaf, s.source[i]).rgb565;
-      ++sums.count;
-      sums.x += x;
-      sums.y += y;
-      sums.z += z;
-      sums.xx += x * x;
-      sums.xy += x * y;
-      sums.xz += x * z;
-      sums.yy += y * y;
-      sums.yz += y * z;
-      sums.zz += z * z;
-      sums.r += red_of(colour);
-      sums.g += green_of(colour);
-      sums.b += blue_of(colour);
+      sums[kCount] += 1;
+      sums[kX] += x;
+      sums[kY] += y;
+      sums[kZ] += z;
+      sums[kXx] += x * x;
+      sums[kXy] += x * y;
+      sums[kXz] += x * z;
+      sums[kYy] += y * y;
+      sums[kYz] += y * z;
+      sums[kZz] += z * z;
+      sums[kRed] += red_of(colour);
+      sums[kGreen] += green_of(colour);
+      sums[kBlue] += blue_of(colour);
     }
-    team.sum_all(reinterpret_cast<std::int64_t*>(&sums), static_cast<int>(sizeof(sums) / sizeof(std::int64_t)));
+    team.sum_all(sums);
     if (team.lane() == 0) mode = make_mode(sums, root_x, root_y, root_z);
   }
 
   /// Mean, regularised unbiased covariance (inverted) and mean colour.
-  FOOTHOLD_HD Mode make_mode(const ClusterSums& sums, std::int64_t root_x, std::int64_t root_y, std::int64_t root_z) const {
-    const auto n = static_cast<double>(sums.count);
-    const double x = static_cast<double>(sums.x) / n;
-    const double y = static_cast<double>(sums.y) / n;
-    const double z = static_cast<double>(sums.z) / n;
+  FOOTHOLD_HD Mode make_mode(const std::int64_t (&sums)[kNumClusterSums], std::int64_t root_x, std::int64_t root_y,
+                             std::int64_t root_z) const {
+    const auto n = static_cast<double>(sums[kCount]);
+    const double x = static_cast<double>(sums[kX]) / n;
+    const double y = static_cast<double>(sums[kY]) / n;
+    const double z = static_cast<double>(sums[kZ]) / n;
     const double floor_mm2 = 1e6 * static_cast<double>(settings.covariance_floor_m) * static_cast<double>(settings.covariance_floor_m);
     const double unbiased = 1.0 / (n > 1.0 ? n - 1.0 : 1.0);
-    const double xx = (static_cast<double>(sums.xx) - n * x * x) * unbiased + floor_mm2;
-    const double xy = (static_cast<double>(sums.xy) - n * x * y) * unbiased;
-    const double xz = (static_cast<double>(sums.xz) - n * x * z) * unbiased;
-    const double yy = (static_cast<double>(sums.yy) - n * y * y) * unbiased + floor_mm2;
-    const double yz = (static_cast<double>(sums.yz) - n * y * z) * unbiased;
-    const double zz = (static_cast<double>(sums.zz) - n * z * z) * unbiased + floor_mm2;
+    const double xx = (static_cast<double>(sums[kXx]) - n * x * x) * unbiased + floor_mm2;
+    const double xy = (static_cast<double>(sums[kXy]) - n * x * y) * unbiased;
+    const double xz = (static_cast<double>(sums[kXz]) - n * x * z) * unbiased;
+    const double yy = (static_cast<double>(sums[kYy]) - n * y * y) * unbiased + floor_mm2;
+    const double yz = (static_cast<double>(sums[kYz]) - n * y * z) * unbiased;
+    const double zz = (static_cast<double>(sums[kZz]) - n * z * z) * unbiased + floor_mm2;
     const double c_xx = yy * zz - yz * yz;
     const double c_xy = xz * yz - xy * zz;
     const double c_xz = xy * yz - xz * yy;
@@ -269,11 +272,11 @@ struct QuickShift {
     mode.precision[3] = static_cast<float>(scale * (xx * zz - xz * xz));
     mode.precision[4] = static_cast<float>(scale * (xy * xz - xx * yz));
     mode.precision[5] = static_cast<float>(scale * (xx * yy - xy * xy));
-    mode.rgb[0] = static_cast<std::uint8_t>(sums.r / sums.count);
-    mode.rgb[1] = static_cast<std::uint8_t>(sums.g / sums.count);
-    mode.rgb[2] = static_cast<std::uint8_t>(sums.b / sums.count);
+    mode.rgb[0] = static_cast<std::uint8_t>(sums[kRed] / sums[kCount]);
+    mode.rgb[1] = static_cast<std::uint8_t>(sums[kGreen] / sums[kCount]);
+    mode.rgb[2] = static_cast<std::uint8_t>(sums[kBlue] / sums[kCount]);
     mode.reserved = 0;
-    mode.num_points = static_cast<std::uint32_t>(sums.count);
+    mode.num_points = static_cast<std::uint32_t>(sums[kCount]);
     return mode;
   }
 };

@@ -63,9 +63,9 @@ struct FindLeaves {
     const std::size_t first = i % groups_per_tree * static_cast<std::size_t>(kWidth);
     const int num = static_cast<int>(pixels.size() - first < static_cast<std::size_t>(kWidth) ? pixels.size() - first
                                                                                               : static_cast<std::size_t>(kWidth));
-    int u[kWidth];
-    int v[kWidth];
-    float px_per_offset[kWidth];
+    int u[kWidth] = {};
+    int v[kWidth] = {};
+    float px_per_offset[kWidth] = {};
     ForestNode node[kWidth];
     for (int w = 0; w < num; ++w)
       start(pixels[first + static_cast<std::size_t>(w)], forest.roots[tree], u[w], v[w], px_per_offset[w], node[w]);

@@ -9,6 +9,14 @@
 
 namespace foothold {
 
+FOOTHOLD_HD inline Eigen::Vector3f point_of(const SurfaceSample& surface) {
+  return {surface.point_camera[0], surface.point_camera[1], surface.point_camera[2]};
+}
+FOOTHOLD_HD inline Eigen::Vector3f normal_of(const SurfaceSample& surface) {
+  return {surface.normal_camera[0], surface.normal_camera[1], surface.normal_camera[2]};
+}
+FOOTHOLD_HD inline bool has_normal(const SurfaceSample& surface) { return normal_of(surface).squaredNorm() > 0.0F; }
+
 /// Estimates a sample's surface from the averaged image around it.
 struct EstimateSurface {
   FeatureImageView image;
@@ -54,90 +62,61 @@ struct EstimateSurface {
   }
 };
 
-/// Aligns one candidate: each sample is drawn along its normal to the weighted mean of the remembered points around it.
-template <class Executor>
-struct AlignWithPoints {
+/// Starts the alignment of the best candidate.
+struct BeginAlignment {
+  const std::uint64_t* order;
+  const SE3* hypotheses;
+  AlignmentState* state;
+
+  FOOTHOLD_HD void operator()(std::size_t) const { *state = {hypotheses[hypothesis_of(order[0])], 1.0F, 0}; }
+};
+
+/// Puts the aligned pose back in its place.
+struct EndAlignment {
+  const std::uint64_t* order;
+  const AlignmentState* state;
+  SE3* hypotheses;
+  float* misfits;  ///< per slot
+
+  FOOTHOLD_HD void operator()(std::size_t) const {
+    hypotheses[hypothesis_of(order[0])] = state->scene_from_camera;
+    misfits[0] = state->misfit;
+  }
+};
+
+/// Sums the distances along a sample's normal to the points of one of its leaves, weighted by (1 - d^2 / r^2)^2 within the radius.
+/// Item i is tree i % num_trees of sample i / num_trees.
+struct MeasureOffset {
   LeafReservoirsView reservoirs;
   int num_trees;
   std::size_t pool_size;
   const std::uint32_t* leaves;
   const SurfaceSample* surfaces;
-  int num_samples;
-  int num_iterations;
-  float first_radius_m;
-  float last_radius_m;
-  const std::uint64_t* order;
-  SE3* hypotheses;
-  float* misfits;  ///< per slot: 0 if every sample lies on the remembered surface, 1 if none has any of it around
+  float radius_mm;
+  const AlignmentState* state;
+  SurfaceOffset* offsets;
 
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t slot) const {
-    const std::uint32_t hypothesis = hypothesis_of(order[slot]);
-    SE3 pose = hypotheses[hypothesis];
-    float fit = 0.0F;
-    for (int iteration = 0; iteration < num_iterations; ++iteration) {
-      const float progress = num_iterations > 1 ? static_cast<float>(iteration) / static_cast<float>(num_iterations - 1) : 1.0F;
-      const float radius_mm = 1000.0F * (first_radius_m + (last_radius_m - first_radius_m) * progress);
-      float sums[kNumAlignmentSums] = {};
-      const int num_used = 2 * iteration < num_iterations ? num_samples / 3 : num_samples;  // few samples suffice at first
-      for (int i = team.lane(); i < num_used; i += team.size()) add_sample(pose, static_cast<std::size_t>(i), radius_mm, sums);
-      team.sum_all(sums, kNumAlignmentSums);
-      fit = sums[kFit] / (sums[kNumWithSurface] > 0.0F ? sums[kNumWithSurface] : 1.0F);
-      float twist[6];
-      if (sums[kNumSupported] < kMinSupported || !solve_damped(sums, kDamping, twist)) break;
-      pose = perturbed(pose, twist);
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    const std::size_t sample = i / static_cast<std::size_t>(num_trees);
+    const std::size_t tree = i % static_cast<std::size_t>(num_trees);
+    SurfaceOffset sum{0.0F, 0.0F};
+    const SurfaceSample& surface = surfaces[sample];
+    const std::uint32_t leaf = leaves[tree * pool_size + sample];
+    if (state->ended == 0 && has_normal(surface) && leaf < static_cast<std::uint32_t>(reservoirs.num_leaves)) {
+      const SE3& pose = state->scene_from_camera;
+      const Eigen::Vector3f p_mm = (pose.rotation * point_of(surface) + pose.translation) * 1000.0F;
+      add_leaf(leaf, p_mm, pose.rotation * normal_of(surface), sum);
     }
-    team.sync();
-    if (team.lane() != 0) return;
-    hypotheses[hypothesis] = pose;
-    misfits[slot] = 1.0F - fit;
+    offsets[i] = sum;
   }
 
  private:
-  // Behind the Hessian and the gradient of solve_damped():
-  static constexpr int kNumSupported = kNumHessian + 6;  ///< samples with remembered points around them
-  static constexpr int kNumWithSurface = kNumSupported + 1;
-  static constexpr int kFit = kNumSupported + 2;
-  static constexpr int kNumAlignmentSums = kNumSupported + 3;
-  static constexpr float kMinSupported = 50.0F;  ///< samples below which the alignment is not trusted
-  static constexpr float kDamping = 1e-4F;
-
-  FOOTHOLD_HD void add_sample(const SE3& pose, std::size_t i, float radius_mm, float* sums) const {
-    const SurfaceSample& surface = surfaces[i];
-    const Eigen::Vector3f normal_camera(surface.normal_camera[0], surface.normal_camera[1], surface.normal_camera[2]);
-    if (normal_camera.squaredNorm() == 0.0F) return;
-    sums[kNumWithSurface] += 1.0F;
-    const Eigen::Vector3f q = pose.rotation * Eigen::Vector3f(surface.point_camera[0], surface.point_camera[1], surface.point_camera[2]);
-    const Eigen::Vector3f n = pose.rotation * normal_camera;
-    const Eigen::Vector3f p_mm = (q + pose.translation) * 1000.0F;
-    float weight = 0.0F;
-    float offset = 0.0F;
-    for (int tree = 0; tree < num_trees; ++tree) {
-      const std::uint32_t leaf = leaves[static_cast<std::size_t>(tree) * pool_size + i];
-      if (leaf < static_cast<std::uint32_t>(reservoirs.num_leaves)) add_leaf(leaf, p_mm, n, radius_mm, weight, offset);
-    }
-    if (weight < kMinWeight) return;
-    const float residual = offset / weight * 1e-3F;  // along the normal, from the sample to the remembered surface [m]
-    const Eigen::Vector3f moment = cross_product(q, n);
-    const float j[6] = {moment.x(), moment.y(), moment.z(), n.x(), n.y(), n.z()};
-    int next = 0;
-    for (int a = 0; a < 6; ++a) {
-      for (int b = a; b < 6; ++b) sums[next++] += j[a] * j[b];
-    }
-    for (int a = 0; a < 6; ++a) sums[kNumHessian + a] -= j[a] * residual;
-    sums[kNumSupported] += 1.0F;
-    const float distance = std::fabs(residual) * 1000.0F / radius_mm;
-    sums[kFit] += distance < 1.0F ? 1.0F - distance : 0.0F;
-  }
-
-  static constexpr float kMinWeight = 0.5F;  ///< one remembered point nearby
-
-  /// Adds a leaf's points within the radius, weighted by (1 - d^2 / r^2)^2.
-  FOOTHOLD_HD FOOTHOLD_INLINE void add_leaf(std::uint32_t leaf, const Eigen::Vector3f& p_mm, const Eigen::Vector3f& n, float radius_mm,
-                                            float& weight, float& offset) const {
+  FOOTHOLD_HD FOOTHOLD_INLINE void add_leaf(std::uint32_t leaf, const Eigen::Vector3f& p_mm, const Eigen::Vector3f& n,
+                                            SurfaceOffset& sum) const {
     const int num_points = reservoirs.num_stored(leaf);
     const float inverse_radius2 = 1.0F / (radius_mm * radius_mm);
     float weights[kReservoirBlockSize] = {};
-    float offsets[kReservoirBlockSize] = {};
+    float products[kReservoirBlockSize] = {};
     for (int first = 0; first < num_points; first += kReservoirBlockSize) {
       const ReservoirBlock& block = reservoirs.block_of(leaf, first);
       const int num = num_points - first < kReservoirBlockSize ? num_points - first : kReservoirBlockSize;
@@ -149,13 +128,76 @@ struct AlignWithPoints {
         const float clipped = (closeness > 0.0F) & (w < num) ? closeness : 0.0F;
         const float factor = clipped * clipped;
         weights[w] += factor;
-        offsets[w] += factor * (n.x() * dx + n.y() * dy + n.z() * dz);
+        products[w] += factor * (n.x() * dx + n.y() * dy + n.z() * dz);
       }
     }
     for (int w = 0; w < kReservoirBlockSize; ++w) {
-      weight += weights[w];
-      offset += offsets[w];
+      sum.weight += weights[w];
+      sum.offset_mm += products[w];
     }
+  }
+};
+
+/// One step of the alignment by one team: each sample is drawn along its normal to the mean of the remembered points around it.
+template <class Executor>
+struct AlignWithPoints {
+  int num_trees;
+  const SurfaceSample* surfaces;
+  const SurfaceOffset* offsets;
+  int num_samples;
+  float radius_m;
+  AlignmentState* state;
+
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t) const {
+    if (state->ended != 0) return;
+    const SE3 pose = state->scene_from_camera;
+    float sums[kNumAlignmentSums] = {};
+    for (int i = team.lane(); i < num_samples; i += team.size()) add_sample(pose, static_cast<std::size_t>(i), sums);
+    team.sum_all(sums);
+    if (team.lane() != 0) return;
+    state->misfit = 1.0F - sums[kFit] / (sums[kNumWithSurface] > 0.0F ? sums[kNumWithSurface] : 1.0F);
+    float twist[6];
+    if (sums[kNumSupported] >= kMinSupported && solve_damped(sums, kDamping, twist)) {
+      state->scene_from_camera = perturbed(pose, twist);
+    } else {
+      state->ended = 1;
+    }
+  }
+
+ private:
+  // Behind the Hessian and the gradient of solve_damped():
+  static constexpr int kNumSupported = kNumHessian + 6;  ///< samples with remembered points around them
+  static constexpr int kNumWithSurface = kNumSupported + 1;
+  static constexpr int kFit = kNumSupported + 2;
+  static constexpr int kNumAlignmentSums = kNumSupported + 3;
+  static constexpr float kMinSupported = 50.0F;  ///< samples below which the alignment is not trusted
+  static constexpr float kDamping = 1e-4F;
+  static constexpr float kMinWeight = 0.5F;  ///< one remembered point nearby
+
+  FOOTHOLD_HD FOOTHOLD_INLINE void add_sample(const SE3& pose, std::size_t i, float (&sums)[kNumAlignmentSums]) const {
+    const SurfaceSample& surface = surfaces[i];
+    if (!has_normal(surface)) return;
+    sums[kNumWithSurface] += 1.0F;
+    SurfaceOffset sum{0.0F, 0.0F};
+    for (int tree = 0; tree < num_trees; ++tree) {
+      const SurfaceOffset& of_tree = offsets[i * static_cast<std::size_t>(num_trees) + static_cast<std::size_t>(tree)];
+      sum.weight += of_tree.weight;
+      sum.offset_mm += of_tree.offset_mm;
+    }
+    if (sum.weight < kMinWeight) return;
+    const float residual_m = sum.offset_mm / sum.weight * 1e-3F;  // along the normal, from the sample to the remembered surface
+    const Eigen::Vector3f q = pose.rotation * point_of(surface);
+    const Eigen::Vector3f n = pose.rotation * normal_of(surface);
+    const Eigen::Vector3f moment = cross_product(q, n);
+    const float j[6] = {moment.x(), moment.y(), moment.z(), n.x(), n.y(), n.z()};
+    int next = 0;
+    for (int a = 0; a < 6; ++a) {
+      for (int b = a; b < 6; ++b) sums[next++] += j[a] * j[b];
+    }
+    for (int a = 0; a < 6; ++a) sums[kNumHessian + a] -= j[a] * residual_m;
+    sums[kNumSupported] += 1.0F;
+    const float distance = std::fabs(residual_m) / radius_m;
+    sums[kFit] += distance < 1.0F ? 1.0F - distance : 0.0F;
   }
 };
 

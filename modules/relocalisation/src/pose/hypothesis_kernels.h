@@ -11,6 +11,9 @@
 
 namespace foothold {
 
+/// Teams here share nothing.
+struct NoScratch {};
+
 FOOTHOLD_HD inline Eigen::Vector3f point_of(const PooledPixel& pixel) {
   return {pixel.point_camera[0], pixel.point_camera[1], pixel.point_camera[2]};
 }
@@ -26,27 +29,38 @@ FOOTHOLD_HD inline int colour_difference(const std::uint8_t* a, const std::uint8
   return largest;
 }
 
-/// Draws one hypothesis; its energy starts at zero, or at infinity if every draw failed.
+/// Draws one hypothesis: lanes draw triples until one of them passes, and the first in the order of draws is taken, however many lanes
+/// there are. The hypothesis' energy starts at zero, or at infinity if every draw failed.
+template <class Executor>
 struct DrawHypothesis {
   CorrespondencePoolView pool;
   PoseEstimatorSettings settings;
   SE3* hypotheses;
   float* energies;
 
-  FOOTHOLD_HD void operator()(std::size_t i) const {
-    energies[i] = std::numeric_limits<float>::infinity();
-    hypotheses[i] = SE3{};
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t i) const {
     const std::uint32_t num_pixels = *pool.num_pixels;
-    if (num_pixels < 3) return;
-    Random random(settings.seed, i);
-    for (int draw = 0; draw < settings.max_draws; ++draw) {
-      if (!draw_triple(random, num_pixels, hypotheses[i])) continue;
-      energies[i] = 0.0F;
+    const int num_draws = num_pixels < 3 ? 0 : settings.max_draws;
+    const Random random(settings.seed, i);
+    for (int first = 0; first < num_draws; first += team.size()) {
+      const int draw = first + team.lane();
+      Random sequence = random.ahead(static_cast<std::uint64_t>(draw));
+      SE3 scene_from_camera;
+      const bool passed = draw < num_draws && draw_triple(sequence, num_pixels, scene_from_camera);
+      const int winner = team.lowest(passed ? draw : num_draws);
+      if (winner == num_draws) continue;
+      if (draw == winner) set(i, scene_from_camera, 0.0F);
       return;
     }
+    if (team.lane() == 0) set(i, SE3{}, std::numeric_limits<float>::infinity());
   }
 
  private:
+  FOOTHOLD_HD void set(std::size_t i, const SE3& hypothesis, float energy) const {
+    hypotheses[i] = hypothesis;
+    energies[i] = energy;
+  }
+
   FOOTHOLD_HD bool draw_triple(Random& random, std::uint32_t num_pixels, SE3& scene_from_camera) const {
     Eigen::Vector3f camera[3];
     Eigen::Vector3f scene[3];

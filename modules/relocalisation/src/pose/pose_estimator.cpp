@@ -28,6 +28,8 @@ PoseEstimator::Buffers::Buffers(MemoryKind memory)
       sort_buffer(memory),
       nearest(memory),
       surfaces(memory),
+      alignment(memory, 1),
+      offsets(memory),
       misfits(memory),
       candidates(memory) {}
 
@@ -59,6 +61,7 @@ std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const
   const auto pool_size = static_cast<std::size_t>(settings_.pool_size);
   const auto num_trees = static_cast<std::size_t>(forest.num_trees);
   buffers_.leaves.resize(pool_size * num_trees);
+  buffers_.offsets.resize(static_cast<std::size_t>(std::min(settings_.alignment_samples, settings_.pool_size)) * num_trees);
   buffers_.modes.resize(pool_size * num_trees * static_cast<std::size_t>(leaf_modes.modes.max_blocks * kModeBlockSize));
   const PoseProblem problem{context, frame, image, forest, reservoirs, leaf_modes, settings_};
   dispatch(context, [&](auto on) {
@@ -78,7 +81,7 @@ std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const
     const ScopedStage stage(context, "relocalise/refine");
     Algorithms::finish(problem, buffers_);
   });
-  std::vector<PoseCandidate> candidates = buffers_.candidates.to_host();
+  std::vector<PoseCandidate> candidates = buffers_.candidates.to_host(context);
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), [](const PoseCandidate& c) { return c.valid == 0; }),
                    candidates.end());
   return candidates;

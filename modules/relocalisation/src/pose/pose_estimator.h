@@ -52,6 +52,20 @@ struct SurfaceSample {
   float normal_camera[3];  ///< unit length, towards the camera
 };
 
+/// A sample's distance along its normal to the points that one leaf remembers around it, as weighted sums.
+struct SurfaceOffset {
+  float weight;
+  float offset_mm;  ///< times the weight
+};
+
+/// The progress of an alignment; in device memory, so that no step waits for the host.
+struct AlignmentState {
+  SE3 scene_from_camera;
+  float misfit;  ///< 0 if every sample lies on the remembered surface, 1 if none has any of it around
+  std::int32_t ended;
+};
+static_assert(sizeof(AlignmentState) == 56, "lives in device memory");
+
 /// Estimates the camera of a frame from the modes its pixels reach.
 ///
 /// Determinism: a function of the arguments and settings.seed, whatever the number of threads.
@@ -81,7 +95,9 @@ class PoseEstimator {
     Array<std::uint64_t> sort_buffer;
     Array<std::uint16_t> nearest;  ///< hypotheses x samples: position of the nearest mode
     Array<SurfaceSample> surfaces;
-    Array<float> misfits;  ///< per candidate, after alignment; 1 for those not aligned
+    Array<AlignmentState> alignment;
+    Array<SurfaceOffset> offsets;  ///< alignment samples x trees
+    Array<float> misfits;          ///< per candidate, after alignment; 1 for those not aligned
     Array<PoseCandidate> candidates;
   };
 

@@ -104,7 +104,8 @@ template <class Executor>
 void PoseAlgorithms<Executor>::draw_hypotheses(const PoseProblem& problem, PoseEstimator::Buffers& buffers) {
   const HypothesisSet<Executor> set(problem, buffers);
   const auto num_hypotheses = static_cast<std::size_t>(problem.settings.num_hypotheses);
-  set.executor().for_each(num_hypotheses, DrawHypothesis{set.pool(), problem.settings, buffers.hypotheses.data(), buffers.energies.data()});
+  set.executor().template for_each_team<NoScratch>(
+      num_hypotheses, DrawHypothesis<Executor>{set.pool(), problem.settings, buffers.hypotheses.data(), buffers.energies.data()});
   set.sort(num_hypotheses, true);
 }
 
@@ -144,15 +145,27 @@ void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffe
   const int downscale = problem.image.downscale();
   const int neighbour_distance = scaled_to_width(kNeighbourDistancePx, problem.frame.depth.width);
   const int reach = neighbour_distance > downscale ? neighbour_distance / downscale : 1;
-  const auto num_samples = settings.alignment_samples < settings.pool_size ? settings.alignment_samples : settings.pool_size;
+  const int num_samples = settings.alignment_samples < settings.pool_size ? settings.alignment_samples : settings.pool_size;
   const Intrinsics intrinsics = problem.frame.calibration.depth.scaled(1.0F / static_cast<float>(downscale));
   set.executor().for_each(static_cast<std::size_t>(num_samples), EstimateSurface{problem.image.view(), intrinsics, downscale, reach,
                                                                                  buffers.sampled.data(), buffers.surfaces.data()});
-  set.executor().template for_each_team<NoScratch>(
-      1, AlignWithPoints<Executor>{problem.reservoirs, problem.forest.num_trees, static_cast<std::size_t>(settings.pool_size),
-                                   buffers.leaves.data(), buffers.surfaces.data(), num_samples, settings.alignment_iterations,
-                                   settings.first_alignment_radius_m, settings.last_alignment_radius_m, buffers.order.data(),
-                                   buffers.hypotheses.data(), buffers.misfits.data()});
+  AlignmentState* const state = buffers.alignment.data();
+  set.executor().for_each(1, BeginAlignment{buffers.order.data(), buffers.hypotheses.data(), state});
+  const auto num_trees = static_cast<std::size_t>(problem.forest.num_trees);
+  for (int i = 0; i < settings.alignment_iterations; ++i) {
+    const float progress =
+        settings.alignment_iterations > 1 ? static_cast<float>(i) / static_cast<float>(settings.alignment_iterations - 1) : 1.0F;
+    const float radius_m =
+        settings.first_alignment_radius_m + (settings.last_alignment_radius_m - settings.first_alignment_radius_m) * progress;
+    const int num_used = 2 * i < settings.alignment_iterations ? num_samples / 3 : num_samples;  // few samples suffice at first
+    set.executor().for_each(
+        static_cast<std::size_t>(num_used) * num_trees,
+        MeasureOffset{problem.reservoirs, problem.forest.num_trees, static_cast<std::size_t>(settings.pool_size), buffers.leaves.data(),
+                      buffers.surfaces.data(), 1000.0F * radius_m, state, buffers.offsets.data()});
+    set.executor().template for_each_team<NoScratch>(
+        1, AlignWithPoints<Executor>{problem.forest.num_trees, buffers.surfaces.data(), buffers.offsets.data(), num_used, radius_m, state});
+  }
+  set.executor().for_each(1, EndAlignment{buffers.order.data(), state, buffers.hypotheses.data(), buffers.misfits.data()});
 }
 
 template <class Executor>

@@ -68,7 +68,7 @@ struct AssignModes {
 
 /// Upper triangle of a 6x6 matrix, a gradient and a cost: what one pass over the samples adds up.
 inline constexpr int kNumHessian = 21;
-inline constexpr int kNumSums = kNumHessian + 6 + 1;
+inline constexpr int kNumRefinementSums = kNumHessian + 6 + 1;
 
 /// Solves (H + lambda diag(H)) x = -g by Cholesky's decomposition. @return False if the matrix is not positive definite.
 FOOTHOLD_HD inline bool solve_damped(const float* sums, float lambda, float* x) {
@@ -125,14 +125,14 @@ struct RefineHypothesis {
     const std::uint16_t* assigned = nearest + slot / kWidth * num_samples * static_cast<std::size_t>(kWidth) + slot % kWidth;
     SE3 best = hypothesis;
     SE3 trial = best;
-    float best_sums[kNumSums];
-    best_sums[kNumSums - 1] = std::numeric_limits<float>::max();
+    float best_sums[kNumRefinementSums];
+    best_sums[kNumRefinementSums - 1] = std::numeric_limits<float>::max();
     float lambda = 1e-3F;
     for (int iteration = 0; iteration < num_iterations; ++iteration) {
-      float sums[kNumSums];
+      float sums[kNumRefinementSums];
       accumulate(team, trial, assigned, sums);
-      if (sums[kNumSums - 1] <= best_sums[kNumSums - 1]) {
-        for (int k = 0; k < kNumSums; ++k) best_sums[k] = sums[k];
+      if (sums[kNumRefinementSums - 1] <= best_sums[kNumRefinementSums - 1]) {
+        for (int k = 0; k < kNumRefinementSums; ++k) best_sums[k] = sums[k];
         best = trial;
         lambda *= 0.1F;
       } else {
@@ -148,8 +148,9 @@ struct RefineHypothesis {
 
  private:
   /// Cost, gradient and Gauss-Newton Hessian of sum rho(r' P r), rho(q) = 2 (sqrt(1 + q) - 1): quadratic near a mode, linear far from it.
-  FOOTHOLD_HD void accumulate(const typename Executor::Team& team, const SE3& pose, const std::uint16_t* assigned, float* sums) const {
-    float acc[kNumSums][kWidth] = {};
+  FOOTHOLD_HD void accumulate(const typename Executor::Team& team, const SE3& pose, const std::uint16_t* assigned,
+                              float (&sums)[kNumRefinementSums]) const {
+    float acc[kNumRefinementSums][kWidth] = {};
     for (std::uint32_t first = static_cast<std::uint32_t>(team.lane() * kWidth); first < num_samples;
          first += static_cast<std::uint32_t>(team.size() * kWidth)) {
       float point[3][kWidth];
@@ -158,11 +159,11 @@ struct RefineHypothesis {
       load(first, assigned, point, mean, precision);
       add_samples(pose, point, mean, precision, acc);
     }
-    for (int k = 0; k < kNumSums; ++k) {
+    for (int k = 0; k < kNumRefinementSums; ++k) {
       sums[k] = 0.0F;
       for (int w = 0; w < kWidth; ++w) sums[k] += acc[k][w];
     }
-    team.sum_all(sums, kNumSums);
+    team.sum_all(sums);
   }
 
   FOOTHOLD_HD FOOTHOLD_INLINE void load(std::uint32_t first, const std::uint16_t* assigned, float (&point)[3][kWidth],
@@ -184,7 +185,7 @@ struct RefineHypothesis {
   }
 
   FOOTHOLD_HD FOOTHOLD_INLINE void add_samples(const SE3& pose, const float (&point)[3][kWidth], const float (&mean)[3][kWidth],
-                                               const float (&precision)[6][kWidth], float (&acc)[kNumSums][kWidth]) const {
+                                               const float (&precision)[6][kWidth], float (&acc)[kNumRefinementSums][kWidth]) const {
     const Eigen::Matrix3f& r = pose.rotation;
     const Eigen::Vector3f& t = pose.translation;
     for (int w = 0; w < kWidth; ++w) {

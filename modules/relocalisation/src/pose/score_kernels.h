@@ -12,9 +12,6 @@
 
 namespace foothold {
 
-/// Teams here share nothing.
-struct NoScratch {};
-
 inline constexpr std::uint16_t kNoMode = 0xffff;
 
 FOOTHOLD_HD inline std::uint32_t hypothesis_of(std::uint64_t key) { return static_cast<std::uint32_t>(key & 0xffffffffU); }
@@ -77,7 +74,7 @@ struct ScoreGroup {
     for (std::uint32_t s = first + static_cast<std::uint32_t>(team.lane()); s < end; s += static_cast<std::uint32_t>(team.size())) {
       add_sample(poses, pool.pixels[s], sum);
     }
-    team.sum_all(sum, kWidth);
+    team.sum_all(sum);
     if (team.lane() != 0) return;
     for (int w = 0; w < kWidth && first_slot + static_cast<std::size_t>(w) < num_active; ++w) {
       float& energy = energies[poses.index[w]];
@@ -146,7 +143,7 @@ struct EvaluateCandidates {
       add_sample(poses, pool.pixels[s], sums);
     }
     num_with_depth = team.sum(num_with_depth);
-    team.sum_all(sums, 3 * kWidth);
+    team.sum_all(sums);
     if (team.lane() != 0) return;
     const float scale = 1.0F / (num_with_depth > 0.0F ? num_with_depth : 1.0F);
     const float num_pixels = static_cast<float>(*pool.num_pixels);

@@ -15,12 +15,16 @@
 
 namespace foothold {
 
+class Context;
+
 namespace detail {
+void read_memory(const Context& context, void* host, const void* device, std::size_t num_bytes);
+void write_memory(const Context& context, void* device, const void* host, std::size_t num_bytes);
 /// Returns 64-byte aligned memory. @throws CudaError, std::bad_alloc, or DeviceError in a build without CUDA.
 void* allocate_memory(MemoryKind memory, std::size_t num_bytes);
 /// Frees what allocate_memory() returned; never throws.
 void free_memory(MemoryKind memory, void* pointer) noexcept;
-/// Copies between any two kinds of memory and waits until it is done.
+/// Copies between any two kinds of memory, once the device has done all that it was asked for, and waits: not for use within a frame.
 void copy_memory(MemoryKind to_memory, void* to, MemoryKind from_memory, const void* from, std::size_t num_bytes);
 /// Sets every byte to zero.
 void clear_memory(MemoryKind memory, void* pointer, std::size_t num_bytes);
@@ -98,6 +102,23 @@ class Array {
     std::vector<T> host(size_);
     if (size_ != 0) detail::copy_memory(MemoryKind::kHost, host.data(), memory_, data_, size_ * sizeof(T));
     return host;
+  }
+  /// The same two in the order of a context's stream, which alone they wait for: for use within a frame.
+  /// @pre memory() is the context's.
+  void assign(const Context& context, Span<const T> host) {
+    resize(host.size());
+    if (size_ != 0) detail::write_memory(context, data_, host.data(), size_ * sizeof(T));
+  }
+  std::vector<T> to_host(const Context& context) const {
+    std::vector<T> host(size_);
+    if (size_ != 0) detail::read_memory(context, host.data(), data_, size_ * sizeof(T));
+    return host;
+  }
+  /// One element, likewise.
+  T read(const Context& context, std::size_t i) const {
+    T value;
+    detail::read_memory(context, &value, data_ + i, sizeof(T));
+    return value;
   }
 
  private:

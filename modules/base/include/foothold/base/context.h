@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "foothold/base/platform.h"
@@ -18,6 +19,11 @@ class Context;
 namespace detail {
 /// Device scratch memory of library calls; see exec/cuda_executor.cuh.
 void* cuda_scratch(const Context& context, std::size_t num_bytes);
+/// Copies from the memory of the context's device to the host, in the order of its stream, and waits for the copy: how results arrive.
+void read_memory(const Context& context, void* host, const void* device, std::size_t num_bytes);
+/// Copies from the host to the memory of the context's device in the order of its stream, without waiting for what was asked of the stream
+/// before. The host's memory may be reused at once.
+void write_memory(const Context& context, void* device, const void* host, std::size_t num_bytes);
 }  // namespace detail
 
 enum class LogLevel { kInfo, kWarning };
@@ -29,6 +35,10 @@ struct ContextOptions {
   Device device = Device::kCpu;
   /// Threads used on the host, the calling one included; 0 means as many as the machine has. [0, 1024]
   int num_threads = 0;
+  /// The CUDA stream (a cudaStream_t) to work on, which must outlive the context. Hosts that fill device images on a stream of their own
+  /// name it here, so that images are read after they are written and before they are overwritten; nullptr is CUDA's default stream. If
+  /// none is named, the context has a stream of its own that waits for no other: such a host then synchronises before and after each call.
+  std::optional<void*> cuda_stream;
   LogSink log;
   /// Receives the duration of every stage when given; must outlive the context. Tracing waits for the device after each stage.
   Trace* trace = nullptr;
@@ -57,6 +67,8 @@ class Context {
 
  private:
   friend void* detail::cuda_scratch(const Context& context, std::size_t num_bytes);
+  friend void detail::read_memory(const Context& context, void* host, const void* device, std::size_t num_bytes);
+  friend void detail::write_memory(const Context& context, void* device, const void* host, std::size_t num_bytes);
 
   struct State;
   std::shared_ptr<State> state_;

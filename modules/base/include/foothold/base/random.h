@@ -26,9 +26,16 @@ class Random {
  public:
   FOOTHOLD_HD constexpr Random(std::uint64_t seed, std::uint64_t stream) : base_(derive_seed(seed, stream)) {}
 
+  /// The same sequence, `jump` * 2^32 numbers further on: sequences of their own for the parts of one task.
+  FOOTHOLD_HD constexpr Random ahead(std::uint64_t jump) const {
+    Random result = *this;
+    result.counter_ += (jump << 32U) * kStep;
+    return result;
+  }
+
   /// 32 uniform bits.
   FOOTHOLD_HD constexpr std::uint32_t bits() {
-    counter_ += 0x9e3779b97f4a7c15ULL;
+    counter_ += kStep;
     return static_cast<std::uint32_t>(mix_bits(base_ + counter_) >> 32U);
   }
   /// A uniform integer in [0, n), by fixed-point multiplication. @pre n > 0
@@ -41,6 +48,8 @@ class Random {
   FOOTHOLD_HD constexpr float uniform(float low, float high) { return low + (high - low) * uniform(); }
 
  private:
+  static constexpr std::uint64_t kStep = 0x9e3779b97f4a7c15ULL;
+
   std::uint64_t base_;
   std::uint64_t counter_ = 0;
 };

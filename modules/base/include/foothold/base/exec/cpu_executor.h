@@ -39,9 +39,18 @@ struct CpuTeam {
   static constexpr T sum(T value) {
     return value;
   }
-  /// Adds `count` arrays element by element over the lanes; every lane sees the sums afterwards.
+  /// Adds the lanes' arrays element by element; every lane sees the sums afterwards.
+  template <class T, int kCount>
+  static constexpr void sum_all(T (&)[kCount]) {}
+  /// The lowest and the highest of the lanes' values, returned to all lanes.
   template <class T>
-  static constexpr void sum_all(T*, int) {}
+  static constexpr T lowest(T value) {
+    return value;
+  }
+  template <class T>
+  static constexpr T highest(T value) {
+    return value;
+  }
   /// Adds to a counter shared by the lanes and returns its former value. The order of lanes is unspecified.
   static int fetch_add(int& counter, int value) {
     const int before = counter;

@@ -33,28 +33,59 @@ struct CudaTeam {
 
   template <class T>
   __device__ static T sum(T value) {
-    sum_all(&value, 1);
-    return value;
+    T values[1] = {value};
+    sum_all(values);
+    return values[0];
   }
 
-  /// Fixed-order tree over warps: the result does not depend on scheduling.
+  /// The order of additions is fixed, so that the result does not depend on scheduling.
+  template <class T, int kCount>
+  __device__ __forceinline__ static void sum_all(T (&values)[kCount]) {
+    combine(values, [](T a, T b) { return a + b; });
+  }
+
   template <class T>
-  __device__ static void sum_all(T* values, int count) {
-    constexpr int kWarps = kSize / 32;
-    __shared__ T partial[kWarps];
-    for (int k = 0; k < count; ++k) {
-      T value = values[k];
-      for (int offset = 16; offset > 0; offset /= 2) value += __shfl_down_sync(0xffffffffU, value, offset);
-      if (lane() % 32 == 0) partial[lane() / 32] = value;
-      __syncthreads();
-      T total = partial[0];
-      for (int w = 1; w < kWarps; ++w) total += partial[w];
-      values[k] = total;
-      __syncthreads();
-    }
+  __device__ static T lowest(T value) {
+    T values[1] = {value};
+    combine(values, [](T a, T b) { return b < a ? b : a; });
+    return values[0];
+  }
+
+  template <class T>
+  __device__ static T highest(T value) {
+    T values[1] = {value};
+    combine(values, [](T a, T b) { return a < b ? b : a; });
+    return values[0];
   }
 
   __device__ static int fetch_add(int& counter, int value) { return atomicAdd(&counter, value); }
+
+ private:
+  static constexpr int kWarpSize = 32;
+  static constexpr int kWarps = kSize / kWarpSize;
+  static_assert(kSize % kWarpSize == 0, "shuffles name all lanes of a warp");
+
+  /// Combines the lanes' values within warps by a tree, then the warps' in order. Loops unroll, so that the values stay in registers.
+  template <class T, int kCount, class Operation>
+  __device__ __forceinline__ static void combine(T (&values)[kCount], const Operation& operation) {
+    __shared__ __align__(16) T partial[kCount][kWarps];
+#pragma unroll
+    for (int k = 0; k < kCount; ++k) {
+#pragma unroll
+      for (int offset = kWarpSize / 2; offset > 0; offset /= 2) {
+        values[k] = operation(values[k], __shfl_down_sync(0xffffffffU, values[k], offset));
+      }
+      if (lane() % kWarpSize == 0) partial[k][lane() / kWarpSize] = values[k];
+    }
+    __syncthreads();
+#pragma unroll
+    for (int k = 0; k < kCount; ++k) {
+      values[k] = partial[k][0];
+#pragma unroll
+      for (int w = 1; w < kWarps; ++w) values[k] = operation(values[k], partial[k][w]);
+    }
+    __syncthreads();  // the next combination may use the same memory
+  }
 };
 
 namespace detail {
@@ -96,17 +127,22 @@ class CudaExecutor {
   }
 
   void exclusive_scan(Span<const std::uint32_t> in, Span<std::uint32_t> out) const {
-    // A scan over n + 1 elements would read one too many: the total is the last prefix plus the last element.
-    FOOTHOLD_CUDA_CHECK(cudaMemsetAsync(out.data(), 0, sizeof(std::uint32_t), stream_));
+    if (in.empty()) {
+      FOOTHOLD_CUDA_CHECK(cudaMemsetAsync(out.data(), 0, sizeof(std::uint32_t), stream_));
+      return;
+    }
+    // An inclusive scan shifted by one: an exclusive one over n + 1 elements would read one too many.
     std::size_t num_bytes = 0;
     const auto scan = [&](void* scratch) {
       return cub::DeviceScan::InclusiveSum(scratch, num_bytes, in.data(), out.data() + 1, in.size(), stream_);
     };
     FOOTHOLD_CUDA_CHECK(scan(nullptr));
     FOOTHOLD_CUDA_CHECK(scan(detail::cuda_scratch(context_, num_bytes)));
+    FOOTHOLD_CUDA_CHECK(cudaMemsetAsync(out.data(), 0, sizeof(std::uint32_t), stream_));
   }
 
   void sort(Span<std::uint64_t> keys, Array<std::uint64_t>& buffer, int low_bit, int high_bit) const {
+    if (keys.empty() || low_bit == high_bit) return;
     buffer.resize(keys.size());
     cub::DoubleBuffer<std::uint64_t> both(keys.data(), buffer.data());
     std::size_t num_bytes = 0;

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The CUDA executor's verbs, memory and streams against the standard library.
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "foothold/api/frame_uploader.h"
+#include "foothold/base/array.h"
+#include "foothold/base/random.h"
+#include "gpu/device.h"
+#include "gpu/executor_verbs.h"
+#include "support/catch.h"
+#include "support/random_seed.h"
+
+namespace foothold {
+namespace {
+
+/// Below, at and above the size of a block of threads.
+const std::vector<std::size_t> kSizes = {0, 1, 127, 128, 129, 5000};
+
+TEST_CASE("CudaExecutor::for_each: visits every index once") {
+  const Context context = test::context_on(Device::kCuda);
+  for (const std::size_t size : kSizes) {
+    const std::vector<std::uint32_t> values = test::run_for_each(context, size);
+    for (std::size_t i = 0; i < size; ++i) REQUIRE(values[i] == static_cast<std::uint32_t>(i * i));
+  }
+}
+
+TEST_CASE("CudaExecutor::for_each_team: lanes share memory and reduce") {
+  const Context context = test::context_on(Device::kCuda);
+  for (const int values_per_item : {1, 5, 128, 1000}) {
+    constexpr int kItems = 37;
+    const test::TeamResults results = test::run_team_verbs(context, kItems, values_per_item);
+    for (int item = 0; item < kItems; ++item) {
+      std::vector<int> values;
+      for (int k = 0; k < values_per_item; ++k) values.push_back(test::team_value(item, k));
+      const auto i = static_cast<std::size_t>(item);
+      REQUIRE(results.sums[i] == std::accumulate(values.begin(), values.end(), 0));
+      REQUIRE(results.lowest[i] == *std::min_element(values.begin(), values.end()));
+      REQUIRE(results.highest[i] == *std::max_element(values.begin(), values.end()));
+      REQUIRE(results.counted[i] == values_per_item);
+      // Integers this small add up exactly in any order.
+      REQUIRE(results.arrays[3 * i] == static_cast<float>(results.sums[i]));
+      REQUIRE(results.arrays[3 * i + 1] == static_cast<float>(std::inner_product(values.begin(), values.end(), values.begin(), 0)));
+      REQUIRE(results.arrays[3 * i + 2] == static_cast<float>(values_per_item));
+    }
+  }
+}
+
+TEST_CASE("CudaExecutor::exclusive_scan: sums what came before, the total last") {
+  const Context context = test::context_on(Device::kCuda);
+  Random random = test::test_random();
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{1000}, std::size_t{200000}}) {
+    std::vector<std::uint32_t> in(size);
+    for (std::uint32_t& value : in) value = random.below(1000);
+    std::vector<std::uint32_t> expected(size + 1, 0);
+    std::partial_sum(in.begin(), in.end(), expected.begin() + 1);
+    REQUIRE(test::run_exclusive_scan(context, in) == expected);
+  }
+}
+
+TEST_CASE("CudaExecutor::sort: is std::stable_sort by the chosen bits") {
+  const Context context = test::context_on(Device::kCuda);
+  Random random = test::test_random();
+  const std::pair<int, int> kBitRanges[] = {{0, 64}, {0, 63}, {32, 47}, {32, 64}, {63, 64}, {10, 10}};
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{1000}, std::size_t{70000}}) {
+    for (const auto& [low, high] : kBitRanges) {
+      std::vector<std::uint64_t> keys(size);
+      for (std::uint64_t& key : keys) key = ((static_cast<std::uint64_t>(random.bits()) << 32U) | random.bits()) & 0xC3C3C3C3C3C3C3C3ULL;
+      const int num_bits = high - low;
+      const std::uint64_t mask = num_bits == 64 ? ~std::uint64_t{0} : ((std::uint64_t{1} << num_bits) - 1) << low;
+      std::vector<std::uint64_t> expected = keys;
+      std::stable_sort(expected.begin(), expected.end(), [&](std::uint64_t a, std::uint64_t b) { return (a & mask) < (b & mask); });
+      REQUIRE(test::run_sort(context, keys, low, high) == expected);
+    }
+  }
+}
+
+TEST_CASE("Random: draws the same numbers on the device") {
+  const Context context = test::context_on(Device::kCuda);
+  const std::vector<float> numbers = test::run_random(context, 7, 100);
+  for (std::size_t i = 0; i < 100; ++i) {
+    Random random(7, i);
+    REQUIRE(numbers[2 * i] == random.uniform());
+    REQUIRE(numbers[2 * i + 1] == random.ahead(i).uniform(-3.0F, 5.0F));
+  }
+}
+
+TEST_CASE("Array: moves between host and device") {
+  const Context context = test::context_on(Device::kCuda);
+  std::vector<int> host(1000);
+  std::iota(host.begin(), host.end(), -500);
+  Array<int> array(MemoryKind::kCuda, Span<const int>(host));
+  REQUIRE(array.to_host() == host);
+  REQUIRE(array.to_host(context) == host);
+  REQUIRE(array.read(context, 999) == 499);
+  Array<int> copy = array;
+  copy.resize(5000);
+  REQUIRE(std::equal(host.begin(), host.end(), copy.to_host().begin()));
+  array.clear_to_zero();
+  REQUIRE(array.to_host() == std::vector<int>(1000, 0));
+  for (int& value : host) value *= 2;
+  array.assign(context, Span<const int>(host));
+  std::fill(host.begin(), host.end(), 0);  // it may be reused at once
+  REQUIRE(array.read(context, 0) == -1000);
+  REQUIRE(array.to_host(context)[999] == 998);
+}
+
+TEST_CASE("Context: two contexts have streams of their own, copies share theirs") {
+  const Context first = test::context_on(Device::kCuda);
+  const Context copy = first;
+  const Context second = test::context_on(Device::kCuda);
+  REQUIRE(first.memory() == MemoryKind::kCuda);
+  REQUIRE(copy.stream() == first.stream());
+  if (!test::device_is_emulated()) REQUIRE(second.stream() != first.stream());
+}
+
+TEST_CASE("Context: works on the host's stream if given one") {
+  ContextOptions options;
+  options.device = Device::kCuda;
+  options.cuda_stream = nullptr;  // CUDA's default stream
+  const Context context(options);
+  if (!test::device_is_emulated()) REQUIRE(context.stream() == nullptr);
+  REQUIRE(test::run_for_each(context, 300)[299] == 299 * 299);
+}
+
+TEST_CASE("FrameUploader: puts the images into device memory, frame after frame") {
+  const Context context = test::context_on(Device::kCuda);
+  FrameUploader uploader(context);
+  for (const int width : {16, 40, 8}) {
+    RgbdFrame frame;
+    frame.depth = Image<float>(width, 5, 1.5F);
+    frame.depth(3, 2) = static_cast<float>(width);
+    frame.colour = Image<Rgb8>(width, 5, {1, 2, 3});
+    frame.calibration.depth = frame.calibration.colour = {10.0F, 10.0F, 3.0F, 2.0F};
+    frame.index = width;
+    const Frame uploaded = uploader.upload(frame.view());
+    REQUIRE(uploaded.depth.memory == MemoryKind::kCuda);
+    REQUIRE(uploaded.colour.memory == MemoryKind::kCuda);
+    REQUIRE(uploaded.index == width);
+    std::vector<float> depth(frame.depth.size());
+    detail::read_memory(context, depth.data(), uploaded.depth.data, depth.size() * sizeof(float));
+    REQUIRE(std::equal(depth.begin(), depth.end(), frame.depth.data()));
+    std::vector<std::uint8_t> colour(3 * frame.colour.size());
+    detail::read_memory(context, colour.data(), uploaded.colour.data, colour.size());
+    REQUIRE(colour[3 * frame.colour.size() - 1] == 3);
+    REQUIRE(uploader.upload(uploaded).depth.data == uploaded.depth.data);  // already there
+  }
+}
+
+}  // namespace
+}  // namespace foothold

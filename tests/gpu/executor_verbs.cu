@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/base/exec/cuda_executor.cuh"
+
+#include "gpu/executor_verbs_impl.h"

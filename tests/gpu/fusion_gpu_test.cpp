@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Fusion on CUDA against the same on the CPU.
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <vector>
+
+#include "foothold/api/frame_uploader.h"
+#include "foothold/fusion/icp_tracker.h"
+#include "foothold/fusion/raycaster.h"
+#include "foothold/fusion/tsdf_volume.h"
+#include "fusion/scene.h"
+#include "gpu/device.h"
+#include "support/catch.h"
+#include "support/random_seed.h"
+#include "tsdf_view.h"
+
+namespace foothold {
+namespace {
+
+/// Stored distances may differ by this many of 32767 steps per truncation distance (0.006 mm): the devices' compilers may order additions
+/// differently.
+constexpr int kDistanceTolerance_steps = 2;
+/// A voxel at the border of a pixel may see its neighbour's depth: at most this part of them.
+constexpr double kMaxDeviatingVoxels = 1e-4;
+constexpr float kDepthTolerance_m = 1e-4F;
+/// Rays that graze an edge may hit on one device and miss on the other.
+constexpr double kMaxDeviatingPixels = 1e-3;
+constexpr float kPoseTolerance_m = 1e-3F;
+constexpr float kPoseTolerance_rad = 1e-3F;
+
+/// Coarse enough for the emulated device.
+TsdfSettings coarse() {
+  TsdfSettings settings;
+  settings.voxel_size_m = 0.04F;
+  settings.truncation_m = 0.12F;
+  return settings;
+}
+
+/// A map of the scene's arc on a device.
+TsdfVolume map_on(const Context& context, int num_frames) {
+  TsdfVolume volume(context, coarse());
+  FrameUploader uploader(context);
+  for (int i = 0; i < num_frames; ++i) {
+    const SE3 pose = test::pose_on_arc(static_cast<float>(i) / 3.0F);
+    const RgbdFrame frame = test::render(test::Scene{}, pose, 160, 120);
+    volume.integrate(uploader.upload(frame.view()), pose);
+  }
+  return volume;
+}
+
+TEST_CASE("CUDA: a map has the CPU's blocks in the CPU's order, and its distances within the tolerance") {
+  const Context host = test::context_on(Device::kCpu);
+  const TsdfVolume expected = map_on(host, 3);
+  const TsdfVolume actual(map_on(test::context_on(Device::kCuda), 3), host);
+  REQUIRE(expected.num_blocks() > 50);
+  REQUIRE(actual.num_blocks() == expected.num_blocks());
+  long num_voxels = 0;
+  long num_deviating = 0;
+  for (int b = 0; b < expected.num_blocks(); ++b) {
+    REQUIRE(actual.view().block_keys[b] == expected.view().block_keys[b]);
+    REQUIRE(actual.view().find(expected.view().block_keys[b]) == b);
+    const VoxelBlock& left = actual.view().block(b);
+    const VoxelBlock& right = expected.view().block(b);
+    for (int i = 0; i < kBlockVoxels; ++i, ++num_voxels) {
+      const bool near = std::abs(left.distance[i] - right.distance[i]) <= kDistanceTolerance_steps && left.weight[i] == right.weight[i] &&
+                        std::abs(left.red[i] - right.red[i]) <= 1;
+      num_deviating += near ? 0 : 1;
+    }
+  }
+  INFO(num_deviating << " of " << num_voxels << " voxels");
+  REQUIRE(static_cast<double>(num_deviating) <= kMaxDeviatingVoxels * static_cast<double>(num_voxels));
+  if (test::device_is_emulated()) REQUIRE(num_deviating == 0);
+}
+
+TEST_CASE("CUDA: maps copy from host to device and back unchanged, and grow on after it") {
+  const Context host = test::context_on(Device::kCpu);
+  const TsdfVolume map = map_on(host, 2);
+  TsdfVolume on_device(map, test::context_on(Device::kCuda));
+  const RgbdFrame frame = test::render(test::Scene{}, test::pose_on_arc(0.9F), 160, 120);
+  const TsdfVolume back(on_device, host);
+  REQUIRE(back.num_blocks() == map.num_blocks());
+  for (int b = 0; b < map.num_blocks(); ++b) REQUIRE(std::memcmp(&back.view().block(b), &map.view().block(b), sizeof(VoxelBlock)) == 0);
+  FrameUploader uploader(on_device.context());
+  REQUIRE(on_device.integrate(uploader.upload(frame.view()), test::pose_on_arc(0.9F)).num_new_blocks > 0);
+}
+
+TEST_CASE("CUDA: a rendering shows the CPU's depths and normals") {
+  const Context host = test::context_on(Device::kCpu);
+  const Context device = test::context_on(Device::kCuda);
+  const TsdfVolume map = map_on(host, 3);
+  const TsdfVolume on_device(map, device);
+  const RenderCamera camera = test::camera_of(test::render(test::Scene{}, test::pose_on_arc(0.4F), 160, 120));
+  SurfaceMap expected(host.memory());
+  SurfaceMap actual(device.memory());
+  Raycaster(host).render(map, camera, expected, true);
+  Raycaster(device).render(on_device, camera, actual, true);
+  const std::vector<SurfacePixel> left = actual.pixels.to_host(device);
+  const std::vector<Rgb8> colours = actual.colours.to_host(device);
+  REQUIRE(left.size() == expected.pixels.size());
+  std::size_t num_deviating = 0;
+  std::size_t num_hits = 0;
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    const SurfacePixel& right = expected.pixels[i];
+    num_hits += right.depth_m > 0.0F ? 1 : 0;
+    const bool near = std::abs(left[i].depth_m - right.depth_m) < kDepthTolerance_m &&
+                      std::abs(left[i].normal_z - right.normal_z) < 0.01F && std::abs(colours[i].g - expected.colours[i].g) <= 1;
+    num_deviating += near ? 0 : 1;
+  }
+  REQUIRE(num_hits > left.size() / 2);
+  INFO(num_deviating << " of " << left.size() << " pixels");
+  REQUIRE(static_cast<double>(num_deviating) <= kMaxDeviatingPixels * static_cast<double>(left.size()));
+  if (test::device_is_emulated()) REQUIRE(num_deviating == 0);
+}
+
+TEST_CASE("CUDA: tracking gives the CPU's poses and measures") {
+  const Context host = test::context_on(Device::kCpu);
+  const Context device = test::context_on(Device::kCuda);
+  const TsdfVolume map = map_on(host, 3);
+  const TsdfVolume on_device(map, device);
+  const RenderCamera camera = test::camera_of(test::render(test::Scene{}, test::pose_on_arc(0.4F), 160, 120));
+  SurfaceMap host_view(host.memory());
+  SurfaceMap device_view(device.memory());
+  Raycaster(host).render(map, camera, host_view);
+  Raycaster(device).render(on_device, camera, device_view);
+  IcpSettings settings;
+  settings.coarsest_level = 2;
+  settings.finest_level = 0;
+  IcpTracker host_tracker(host, settings);
+  IcpTracker device_tracker(device, settings);
+  FrameUploader uploader(device);
+  Random random = test::test_random();
+  for (int i = 0; i < 4; ++i) {
+    const RgbdFrame frame = test::render(test::Scene{}, camera.world_from_camera * test::random_motion(random, 0.03F, 0.02F), 160, 120);
+    host_tracker.set_frame(frame.view());
+    device_tracker.set_frame(uploader.upload(frame.view()));
+    const TrackingResult expected = host_tracker.track(host_view, camera.world_from_camera);
+    const TrackingResult actual = device_tracker.track(device_view, camera.world_from_camera);
+    REQUIRE(translation_distance_m(actual.world_from_camera, expected.world_from_camera) < kPoseTolerance_m);
+    REQUIRE(rotation_distance_rad(actual.world_from_camera, expected.world_from_camera) < kPoseTolerance_rad);
+    REQUIRE(actual.measures.well_posed == expected.measures.well_posed);
+    REQUIRE(std::abs(actual.measures.inlier_fraction - expected.measures.inlier_fraction) < 0.01F);
+    REQUIRE(std::abs(actual.measures.log_det_total - expected.measures.log_det_total) < 0.05F);
+  }
+}
+
+}  // namespace
+}  // namespace foothold

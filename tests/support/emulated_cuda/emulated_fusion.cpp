@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What fusion.cu instantiates, for the emulated device.
+#include "support/emulated_cuda/emulated_cuda_executor.h"
+
+#include "icp_kernels.h"
+#include "raycaster_kernels.h"
+#include "tsdf_kernels.h"
+
+namespace foothold {
+
+template <>
+struct ExecutorOf<Device::kCuda> {
+  using Type = CudaExecutor;
+};
+
+template struct TsdfOps<Device::kCuda>;
+template struct RaycasterOps<Device::kCuda>;
+template struct IcpOps<Device::kCuda>;
+
+}  // namespace foothold

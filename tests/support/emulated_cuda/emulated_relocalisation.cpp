@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What the .cu files of module relocalisation instantiate, for the emulated device.
+#include "support/emulated_cuda/emulated_cuda_executor.h"
+
+#include "clustering/leaf_modes_kernels.h"
+#include "features/feature_image_kernels.h"
+#include "pose/pose_estimator_kernels.h"
+#include "reservoirs/leaf_reservoirs_kernels.h"
+
+namespace foothold {
+
+template struct FeatureAlgorithms<CudaExecutor>;
+template struct ReservoirAlgorithms<CudaExecutor>;
+template struct ClusteringAlgorithms<CudaExecutor>;
+template struct PoseAlgorithms<CudaExecutor>;
+
+}  // namespace foothold
