@@ -26,5 +26,7 @@ Command add_novel_command(CLI::App& app);
 Command add_time_command(CLI::App& app);
 /// "confidence": false accepts against recall, and calibration.
 Command add_confidence_command(CLI::App& app);
+/// "failures": pictures of wrong answers. Reference: [Cavallari2017], supplementary material.
+Command add_failures_command(CLI::App& app);
 
 }  // namespace foothold::benchmark

@@ -145,6 +145,37 @@ class TimeTest(SceneTest):
         self.assertEqual(self.run_json(*self.arguments, "--sweep", "none")["sweeps"], [])
 
 
+class FailuresTest(SceneTest):
+    # Two rooms in one world: whatever is answered is wrong, so there is something to look into.
+    scene = "--scene", "wrong=synthetic:kitchen?frames=8&width=320&height=240,synthetic:office?frames=4&width=320&height=240"
+
+    def test_wrong_answers_are_told_and_drawn(self):
+        results = self.run_json("failures", *self.scene, "--settle", 2, "--pictures", "failure", "--csv", "wrong.csv")
+        self.assertEqual(results["num_tested"], 4)
+        self.assertEqual(results["num_wrong"] + results["num_unanswered"], 4)
+        self.assertGreaterEqual(len(results["cases"]), 1)
+        case = results["cases"][0]
+        self.assertIsNone(case["first_right_candidate"])
+        self.assertLessEqual(len(case["candidates"]), 16)
+        self.assertEqual(case["candidates"][0]["confidence"], case["confidence"])
+        for key in ["candidates_picture", "modes_picture"]:
+            self.assertEqual((self.folder / case[key]).read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(len((self.folder / "wrong.csv").read_text().splitlines()), 1 + results["num_wrong"])
+
+    def test_equal_options_give_equal_answers(self):
+        runs = [self.run_json("failures", *self.scene, "--settle", 2, "--threads", threads) for threads in (1, 2)]
+        self.assertEqual(without_timing(runs[0]), without_timing(runs[1]))
+
+    def test_nothing_to_look_into_is_no_error(self):
+        results = self.run_json("failures", "--scene", "same=synthetic:kitchen?frames=6,synthetic:kitchen?frames=6&seed=7", "--pictures", "failure")
+        self.assertEqual(results["cases"], [])
+
+    def test_wrong_arguments(self):
+        self.check_refused("failures", *self.scene, "--method", "ferns", says="expected forest or paper")
+        self.check_refused("failures", *self.scene, "--scene", KITCHEN, says="expected one")
+        self.check_refused("failures", *self.scene, "--pictures", "nowhere/failure", says=["nowhere", "--pictures"])
+
+
 class WrongSceneTest(SceneTest):
     """Nothing runs, nothing is written, and the message says what is missing."""
 
