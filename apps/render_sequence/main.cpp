@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// render_sequence: writes a rendered room, or any other recording, as a folder in the layout of 7-Scenes.
+/// render_sequence: writes a rendered room, or any other recording, as a folder in the layout of 7-Scenes or as one raw file.
+#include <fstream>
 #include <iostream>
 
 #include "common/app_main.h"
 #include "common/progress_bar.h"
+#include "foothold/api/raw_sequence.h"
+#include "foothold/base/error.h"
 #include "foothold/io/sequence.h"
 #include "foothold/io/sequence_player.h"
 #include "foothold/io/seven_scenes_writer.h"
@@ -17,6 +20,7 @@ struct Options {
   std::string sequence;
   std::string out;
   int stride = 1;
+  bool raw = false;
   int num_threads = 0;
 };
 
@@ -31,6 +35,34 @@ std::string rooms_help() {
   return text;
 }
 
+/// Hands every chosen frame to a writer until the user has enough.
+template <class Writer>
+int write_frames(const std::shared_ptr<const Sequence>& sequence, const std::vector<int>& indices, Writer& writer) {
+  SequencePlayer player(sequence, indices);
+  RgbdFrame frame;
+  {
+    ProgressBar progress("writing", static_cast<std::int64_t>(indices.size()));
+    while (!interrupted() && player.read(frame) == ReadStatus::kFrame) {
+      writer.write(frame);
+      progress.advance();
+    }
+  }
+  if (writer.num_frames() > 0) writer.finish();
+  return writer.num_frames();
+}
+
+int write_folder(const std::shared_ptr<const Sequence>& sequence, const std::vector<int>& indices, const std::string& folder) {
+  SevenScenesWriter writer(folder);
+  return write_frames(sequence, indices, writer);
+}
+
+int write_raw(const std::shared_ptr<const Sequence>& sequence, const std::vector<int>& indices, const std::string& path) {
+  std::ofstream stream(path, std::ios::binary);
+  if (!stream) throw FileError(path + ": cannot be written; does its folder exist?");
+  RawSequenceWriter writer(stream);
+  return write_frames(sequence, indices, writer);
+}
+
 int render(const Options& options) {
   ContextOptions context_options;
   context_options.num_threads = options.num_threads;
@@ -38,19 +70,8 @@ int render(const Options& options) {
   const Context context(context_options);
   const std::shared_ptr<const Sequence> sequence = open_sequence(options.sequence, context);
   const std::vector<int> indices = frame_indices(*sequence, options.stride);
-  SevenScenesWriter writer(options.out);
-  SequencePlayer player(sequence, indices);
-  RgbdFrame frame;
-  {
-    ProgressBar progress("rendering", static_cast<std::int64_t>(indices.size()));
-    while (!interrupted() && player.read(frame) == ReadStatus::kFrame) {
-      writer.write(frame);
-      progress.advance();
-    }
-  }
-  writer.finish();
-  std::cout << "wrote " << writer.num_frames() << " of " << indices.size() << " frames of " << sequence->name() << " to " << options.out
-            << "\n";
+  const int num_frames = options.raw ? write_raw(sequence, indices, options.out) : write_folder(sequence, indices, options.out);
+  std::cout << "wrote " << num_frames << " of " << indices.size() << " frames of " << sequence->name() << " to " << options.out << "\n";
   return interrupted() ? kInterrupted : kSuccess;
 }
 
@@ -59,12 +80,16 @@ int render(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace foothold::apps;
-  CLI::App app("Writes a rendered room, or any other recording, as a folder in the layout of 7-Scenes.", "render_sequence");
+  CLI::App app("Writes a rendered room, or any other recording, as a folder in the layout of 7-Scenes, or as one raw file.",
+               "render_sequence");
   Options options;
   app.add_option("--sequence", options.sequence,
                  "synthetic:ROOM?setting=value&..., or a recording's folder; @A:B at the end selects frames")
       ->required();
-  app.add_option("--out", options.out, "Folder to write; it must not hold frames already")->required()->type_name("DIR");
+  app.add_option("--out", options.out, "Folder to write, which must not hold frames already; with --raw, a file")
+      ->required()
+      ->type_name("DIR");
+  app.add_flag("--raw", options.raw, "Write one file without compression instead, which needs no image library: for scripts/bench_gpu.sh");
   app.add_option("--stride", options.stride, "Use every Nth frame")->check(CLI::Range(1, 1000000))->capture_default_str();
   app.add_option("--threads", options.num_threads, "Host threads; 0 for as many as the machine has")
       ->check(CLI::Range(0, 1024))

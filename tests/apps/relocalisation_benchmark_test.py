@@ -5,7 +5,9 @@
 import csv
 import json
 import math
+import os
 import unittest
+import unittest.mock
 
 import app_support
 
@@ -125,6 +127,8 @@ class BadInputTest(app_support.AppTest):
         self.check_refused(*loss, "--method", "ferns,ferns", says="twice")
         self.check_refused(*loss, "--preset", "fast", says=["fast", "tuned", "paper"])
         self.check_refused(*loss, "--device", "tpu", says=["tpu", "cuda"])
+        with unittest.mock.patch.dict(os.environ, {"CUDA_VISIBLE_DEVICES": ""}):  # hides GPUs where there are any
+            self.check_refused(*loss, "--device", "cuda", says="CUDA")
         self.check_refused(*loss, "--threads", -1, says="-1")
         self.check_refused(*loss, "--stride", 0, says="--stride")
         self.check_refused(*loss, "--gap", -1, says="--gap")

@@ -199,7 +199,12 @@ struct SumChunk {
   static constexpr float kMaxPartnerRatio = 9.0F;
 };
 
-/// Combines the chunks' sums, accepts or rejects the trial pose, and proposes the next. One worker.
+/// What the lanes that solve a step share.
+struct SolveScratch {
+  double sums[kNumSums];
+};
+
+/// Combines the chunks' sums, each by one lane and in order, accepts or rejects the trial pose, and proposes the next. One team.
 struct SolveStep {
   IcpState* state;
   const float* chunk_sums;
@@ -208,13 +213,17 @@ struct SolveStep {
   bool rotation_only;
   float converged_step;
 
-  FOOTHOLD_HD void operator()(std::size_t) const {
+  template <class Team>
+  FOOTHOLD_HD void operator()(const Team& team, SolveScratch& scratch, std::size_t) const {
     if (state->converged != 0) return;
-    double sums[kNumSums];
-    for (int j = 0; j < kNumSums; ++j) {
-      sums[j] = 0.0;
-      for (int c = 0; c < num_chunks; ++c) sums[j] += static_cast<double>(chunk_sums[c * kNumSums + j]);
+    double(&sums)[kNumSums] = scratch.sums;
+    for (int j = team.lane(); j < kNumSums; j += team.size()) {
+      double sum = 0.0;
+      for (int c = 0; c < num_chunks; ++c) sum += static_cast<double>(chunk_sums[c * kNumSums + j]);
+      sums[j] = sum;
     }
+    team.sync();
+    if (team.lane() != 0) return;
     const double num_valid = sums[kNumHessian + 8];
     const double cost = num_valid > 0.0 ? sums[kNumHessian + 6] / num_valid : 1.0;
     constexpr float kFirstDamping = 1e-4F;
@@ -318,7 +327,7 @@ IcpState IcpOps<kDevice>::align(const Context& context, const IcpSettings& setti
     for (int i = 0; i < num_steps; ++i) {
       exec.template for_each_team<IcpScratch>(static_cast<std::size_t>(num_chunks), SumChunk<kWidth>{step, state, sums});
       const bool rotation_only = settings.rotation_first && l == settings.coarsest_level;
-      exec.for_each(1, SolveStep{state, sums, num_chunks, i == 0, rotation_only, settings.converged_step});
+      exec.template for_each_team<SolveScratch>(1, SolveStep{state, sums, num_chunks, i == 0, rotation_only, settings.converged_step});
       if constexpr (kDevice == Device::kCpu) {
         if (state->converged != 0) break;
       }
