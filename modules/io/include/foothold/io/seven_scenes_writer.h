@@ -10,8 +10,8 @@
 
 namespace foothold {
 
-/// Changes depth [m] to what comes back from a recording of it: whole millimetres, 0 beyond 65.534 m. What is reconstructed from such frames
-/// is reconstructed alike from their recording.
+/// Changes depth [m] to what comes back from a recording of it: whole millimetres, 0 beyond 65.534 m. What is reconstructed from such
+/// frames is reconstructed alike from their recording.
 void round_depth_as_recorded(Image<float>& depth_m);
 
 /// Writes frame-000000.{color.png,depth.png,pose.txt}, ... and the calibration of the first frame. Each file appears complete or not at
