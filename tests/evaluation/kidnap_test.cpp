@@ -88,6 +88,18 @@ TEST_CASE("plan_sequential_kidnaps: without kidnaps the recording is played as i
   CHECK(plan.steps.back().frame == 6);
 }
 
+TEST_CASE("plan_sequential_kidnaps: short recordings are kidnapped earlier and less far") {
+  KidnapOptions options = options_of(1, 1, 0);
+  options.removed_length = 6;
+  options.num_judged = 8;
+  const KidnapPlan plan = plan_sequential_kidnaps(48, options);
+  CHECK(plan.kidnaps.size() == 3);
+  for (const Kidnap& kidnap : plan.kidnaps) {
+    if (kidnap.kind != KidnapKind::kReturn) CHECK(kidnap.from >= 12);
+    if (kidnap.kind == KidnapKind::kTeleport) CHECK(kidnap.to + 12 + options.num_judged <= kidnap.from);
+  }
+}
+
 TEST_CASE("plan_sequential_kidnaps: refuses what does not fit") {
   CHECK_THROWS_WITH(plan_sequential_kidnaps(kNumFrames, options_of(20, 0, 0)), Contains("20 kidnaps") && Contains("1000 frames"));
   CHECK_THROWS_AS(plan_sequential_kidnaps(10, options_of(1, 0, 0)), InvalidSettings);
@@ -128,7 +140,7 @@ TEST_CASE("plan_independent_kidnaps: a function of the seed") {
 
 TEST_CASE("plan_independent_kidnaps: refuses what does not fit") {
   CHECK_THROWS_WITH(plan_independent_kidnaps(80, options_of(1, 0, 0)), Contains("'removed'") && Contains("80 frames"));
-  CHECK_THROWS_WITH(plan_independent_kidnaps(80, options_of(0, 1, 0)), Contains("'teleport'"));
+  CHECK_THROWS_WITH(plan_independent_kidnaps(40, options_of(0, 1, 0)), Contains("'teleport'"));
 }
 
 TEST_CASE("KidnapOptions: names the field that is wrong") {

@@ -22,10 +22,12 @@ void check(const char* field, int value, int low) {
 /// Uniform in [low, high]. @pre low <= high
 int between(Random& random, int low, int high) { return low + static_cast<int>(random.below(static_cast<std::uint32_t>(high - low + 1))); }
 
+int teleport_gap(int num_frames, const KidnapOptions& options) { return std::min(options.teleport_gap, std::max(1, num_frames / 4)); }
+
 /// The earliest frame at which a kidnap of a kind may begin.
 int earliest(KidnapKind kind, int num_frames, const KidnapOptions& options) {
   const int first = std::max(1, std::min(options.num_first, num_frames / 4));
-  return kind == KidnapKind::kTeleport ? std::max(first, options.teleport_gap + options.num_judged) : first;
+  return kind == KidnapKind::kTeleport ? std::max(first, teleport_gap(num_frames, options) + options.num_judged) : first;
 }
 
 /// Frames of the recording that a kidnap takes up, the judged ones included.
@@ -34,7 +36,7 @@ int extent(KidnapKind kind, const KidnapOptions& options) {
   return left_out + options.num_judged;
 }
 
-Kidnap kidnap_at(KidnapKind kind, int from, const KidnapOptions& options, Random& random) {
+Kidnap kidnap_at(KidnapKind kind, int from, int num_frames, const KidnapOptions& options, Random& random) {
   switch (kind) {
     case KidnapKind::kRemoved:
       return {kind, from, 0, from + options.removed_length};
@@ -44,7 +46,7 @@ Kidnap kidnap_at(KidnapKind kind, int from, const KidnapOptions& options, Random
     case KidnapKind::kReturn:
       break;
   }
-  return {kind, from, 0, between(random, 0, std::max(0, from - options.teleport_gap - options.num_judged))};
+  return {kind, from, 0, between(random, 0, std::max(0, from - teleport_gap(num_frames, options) - options.num_judged))};
 }
 
 std::vector<KidnapKind> kinds_of(const KidnapOptions& options) {
@@ -126,7 +128,7 @@ KidnapPlan plan_sequential_kidnaps(int num_frames, const KidnapOptions& options)
     const int from = first + spare_before[i] + num_before;
     num_before += extent(kinds[i], options);
     play_until(from);
-    const Kidnap kidnap = kidnap_at(kinds[i], from, options, target);
+    const Kidnap kidnap = kidnap_at(kinds[i], from, num_frames, options, target);
     add_break(kidnap, plan);
     judged_from = static_cast<int>(plan.kidnaps.size()) - 1;
     next = kidnap.to;
@@ -153,7 +155,8 @@ std::vector<Kidnap> plan_independent_kidnaps(int num_frames, const KidnapOptions
     }
     for (int i = 0; i < num_kidnaps; ++i) {  // one in each equal part
       const float part = (static_cast<float>(i) + place.uniform()) / static_cast<float>(num_kidnaps);
-      kidnaps.push_back(kidnap_at(kind, first + static_cast<int>(part * static_cast<float>(last - first + 1)), options, target));
+      kidnaps.push_back(
+          kidnap_at(kind, first + static_cast<int>(part * static_cast<float>(last - first + 1)), num_frames, options, target));
     }
   };
   spread(KidnapKind::kRemoved, options.num_removed);

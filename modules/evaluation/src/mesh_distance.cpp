@@ -63,25 +63,35 @@ class TriangleGrid {
     }
   }
 
-  /// The distance to the surface, or infinity beyond a cube's size.
-  double distance_m(const Vector3d& point) const {
+  /// The distance to the surface, or infinity if none lies within `limit_m`: cubes are searched from the point's own outwards.
+  double distance_m(const Vector3d& point, double limit_m) const {
     double nearest2 = std::numeric_limits<double>::infinity();
-    const Vector3d reach = Vector3d::Constant(cell_m_);
-    for_each_cell(cell_of(point - reach), cell_of(point + reach), [&](const Eigen::Vector3i& cell) {
-      const auto found = cells_.find(key_of(cell));
-      if (found == cells_.end()) return;
-      for (const int i : found->second) {
-        const auto index = static_cast<std::size_t>(i);
-        nearest2 = std::min(nearest2, squared_distance(point, corner(index, 0), corner(index, 1), corner(index, 2)));
-      }
-    });
-    return std::sqrt(nearest2);
+    const Eigen::Vector3i centre = cell_of(point);
+    const int num_rings = static_cast<int>(std::ceil(limit_m / cell_m_));
+    for (int ring = 0; ring <= num_rings; ++ring) {
+      for_each_cell(centre.array() - ring, centre.array() + ring, [&](const Eigen::Vector3i& cell) {
+        if ((cell - centre).cwiseAbs().maxCoeff() == ring) nearest2 = std::min(nearest2, nearest_in_cell(point, cell));
+      });
+      if (std::sqrt(nearest2) <= ring * cell_m_) break;  // nothing outside these cubes is nearer
+    }
+    const double distance_m = std::sqrt(nearest2);
+    return distance_m <= limit_m ? distance_m : std::numeric_limits<double>::infinity();
   }
 
  private:
   Vector3d corner(std::size_t triangle, int k) const {
     const int vertex = mesh_.triangles[triangle][static_cast<std::size_t>(k)];
     return mesh_.vertices[static_cast<std::size_t>(vertex)].cast<double>();
+  }
+  double nearest_in_cell(const Vector3d& point, const Eigen::Vector3i& cell) const {
+    double nearest2 = std::numeric_limits<double>::infinity();
+    const auto found = cells_.find(key_of(cell));
+    if (found == cells_.end()) return nearest2;
+    for (const int triangle : found->second) {
+      const auto i = static_cast<std::size_t>(triangle);
+      nearest2 = std::min(nearest2, squared_distance(point, corner(i, 0), corner(i, 1), corner(i, 2)));
+    }
+    return nearest2;
   }
   Eigen::Vector3i cell_of(const Vector3d& point) const { return (point / cell_m_).array().floor().cast<int>(); }
   template <class Visit>
@@ -102,15 +112,16 @@ class TriangleGrid {
 
 MeshDistance mesh_distance(const Mesh& measured, const Mesh& reference, double tolerance_m, double limit_m) {
   FOOTHOLD_EXPECTS(limit_m > 0.0 && tolerance_m <= limit_m);
-  const TriangleGrid grid(reference, limit_m);
+  constexpr double kCellsPerLimit = 4.0;  // small cubes hold few triangles, but there are more of them to search
+  const TriangleGrid grid(reference, limit_m / kCellsPerLimit);
   MeshDistance result;
   std::vector<double> distances_m;
   double sum_m = 0.0;
   double sum_m2 = 0.0;
   for (const Eigen::Vector3f& vertex : measured.vertices) {
     ++result.num_vertices;
-    const double distance_m = grid.distance_m(vertex.cast<double>());
-    if (!(distance_m <= limit_m)) continue;
+    const double distance_m = grid.distance_m(vertex.cast<double>(), limit_m);
+    if (!std::isfinite(distance_m)) continue;
     ++result.num_near;
     if (distance_m <= tolerance_m) ++result.num_within;
     distances_m.push_back(distance_m);

@@ -44,7 +44,7 @@ struct KidnapOptions {
   int num_removed = 0;      ///< stretches to leave out
   int removed_length = 60;  ///< frames of each
   int num_teleports = 0;
-  int teleport_gap = 60;  ///< a teleport leads at least so many frames back
+  int teleport_gap = 60;  ///< a teleport leads at least so many frames back; at least a quarter of a recording shorter than four times that
   int num_blackouts = 0;
   int blackout_length = 30;  ///< frames of each
   int num_judged = 30;       ///< frames after a kidnap by which it is judged
