@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "canvas.h"
+#include "common/canvas.h"
 #include "foothold/base/contract.h"
 #include "foothold/evaluation/text_table.h"
 #include "foothold/io/image_file.h"
@@ -13,6 +13,9 @@
 
 namespace foothold::benchmark {
 namespace {
+
+using apps::Align;
+using apps::Canvas;
 
 constexpr int kWidth = 1200;
 constexpr int kChartHeight = 440;

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "common/progress_bar.h"
-#include "peak_memory.h"
+#include "common/peak_memory.h"
 
 namespace foothold::benchmark {
 namespace {
@@ -24,7 +24,7 @@ std::vector<std::pair<std::string, std::string>> settings_of(const Method& metho
 
 MethodResult run_method(const Method& method, const MethodInputs& inputs, const CommonOptions& options, const Protocol& protocol,
                         const std::string& label) {
-  restart_peak_memory();
+  apps::restart_peak_memory();
   Trace trace;
   const std::unique_ptr<Relocaliser> relocaliser = method.create(apps::make_context(options.device, &trace), inputs);
   std::unique_ptr<apps::ProgressBar> bar;
@@ -39,7 +39,7 @@ MethodResult run_method(const Method& method, const MethodInputs& inputs, const 
   result.name = method.name;
   result.log = protocol(*relocaliser, protocol_options);
   result.report = make_report(result.log);
-  result.peak_mb = peak_memory_mb();
+  result.peak_mb = apps::peak_memory_mb();
   result.settings = settings_of(method, inputs.settings);
   return result;
 }

@@ -5,10 +5,12 @@
 
 #include <vector>
 
-#include "canvas.h"
+#include "common/canvas.h"
 #include "foothold/evaluation/protocol.h"
 
 namespace foothold::benchmark {
+
+using apps::Point;
 
 /// Positions of the tested cameras [m] seen from above: x along the longer side of the trajectory, y across it.
 ///

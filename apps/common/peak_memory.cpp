@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "peak_memory.h"
+#include "common/peak_memory.h"
 
 #include <malloc.h>
 #include <sys/resource.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-namespace foothold::benchmark {
+namespace foothold::apps {
 namespace {
 
 /// Tells Linux to forget the peak of resident memory: proc(5), /proc/pid/clear_refs.
@@ -33,4 +33,4 @@ double peak_memory_mb() {
   return static_cast<double>(usage.ru_maxrss) * kMbPerKib;
 }
 
-}  // namespace foothold::benchmark
+}  // namespace foothold::apps

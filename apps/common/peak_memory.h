@@ -3,7 +3,7 @@
 /// The most memory that this process held at once.
 #pragma once
 
-namespace foothold::benchmark {
+namespace foothold::apps {
 
 /// Starts a new measurement. Where the system cannot (it needs Linux's /proc), peaks stay those of the whole process so far.
 void restart_peak_memory();
@@ -11,4 +11,4 @@ void restart_peak_memory();
 /// Peak resident memory since the last restart [1e6 bytes].
 double peak_memory_mb();
 
-}  // namespace foothold::benchmark
+}  // namespace foothold::apps

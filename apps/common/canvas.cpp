@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "canvas.h"
+#include "common/canvas.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace foothold::benchmark {
+namespace foothold::apps {
 namespace {
 
 /// How much larger everything is drawn than it is shown.
@@ -72,4 +72,4 @@ Image<Rgb8> Canvas::image() const {
   return image;
 }
 
-}  // namespace foothold::benchmark
+}  // namespace foothold::apps

@@ -9,7 +9,7 @@
 
 #include "foothold/base/image.h"
 
-namespace foothold::benchmark {
+namespace foothold::apps {
 
 struct Point {
   double x = 0.0;
@@ -40,4 +40,4 @@ class Canvas {
   cv::Mat pixels_;
 };
 
-}  // namespace foothold::benchmark
+}  // namespace foothold::apps
