@@ -51,7 +51,7 @@ TEST_CASE("IcpTracker: recovers known motions against a rendered map") {
     tracker.set_frame(frame.view());
     const TrackingResult result = tracker.track(model.map, model.map.camera.world_from_camera);
     REQUIRE(result.measures.well_posed);
-    REQUIRE(translation_distance_m(result.world_from_camera, truth) < 0.002F);  // a fifth of a voxel
+    REQUIRE(translation_distance_m(result.world_from_camera, truth) < 0.001F);  // a tenth of a voxel
     REQUIRE(rotation_distance_rad(result.world_from_camera, truth) < 0.001F);
     REQUIRE(is_rigid(result.world_from_camera, 1e-5F));
     REQUIRE(result.measures.inlier_fraction > 0.8F);

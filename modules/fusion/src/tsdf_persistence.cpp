@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "checksum.h"
+#include "foothold/base/checksum.h"
 #include "foothold/base/error.h"
 #include "foothold/fusion/tsdf_volume.h"
 #include "tsdf_view.h"
@@ -37,11 +37,11 @@ class Writer {
  public:
   explicit Writer(std::ostream& stream) : stream_(stream) {}
   void write(const void* data, std::size_t num_bytes) {
-    checksum_.add(data, num_bytes);
+    checksum_ = fnv1a(checksum_, data, num_bytes);
     stream_.write(static_cast<const char*>(data), static_cast<std::streamsize>(num_bytes));
   }
   void finish() {
-    const std::uint64_t sum = checksum_.value();
+    const std::uint64_t sum = checksum_;
     stream_.write(reinterpret_cast<const char*>(&sum), sizeof(sum));
     stream_.flush();
     if (!stream_) throw FileError("map: writing failed; expected room for the whole map on the disk");
@@ -49,7 +49,7 @@ class Writer {
 
  private:
   std::ostream& stream_;
-  Checksum checksum_;
+  std::uint64_t checksum_ = kFnvBasis;
 };
 
 class Reader {
@@ -60,10 +60,10 @@ class Reader {
     if (static_cast<std::size_t>(stream_.gcount()) != num_bytes) {
       throw FileError("map: ends early: got " + std::to_string(stream_.gcount()) + " bytes of a part of " + std::to_string(num_bytes));
     }
-    checksum_.add(data, num_bytes);
+    checksum_ = fnv1a(checksum_, data, num_bytes);
   }
   void finish() {
-    const std::uint64_t expected = checksum_.value();
+    const std::uint64_t expected = checksum_;
     std::uint64_t found = 0;
     read(&found, sizeof(found));
     if (found != expected) throw FileError("map: damaged: checksum " + std::to_string(found) + ", expected " + std::to_string(expected));
@@ -71,7 +71,7 @@ class Reader {
 
  private:
   std::istream& stream_;
-  Checksum checksum_;
+  std::uint64_t checksum_ = kFnvBasis;
 };
 
 TsdfSettings settings_of(const Header& header) {

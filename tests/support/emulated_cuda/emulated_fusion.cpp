@@ -6,6 +6,7 @@
 #include "icp_kernels.h"
 #include "raycaster_kernels.h"
 #include "tsdf_kernels.h"
+#include "view_check_kernels.h"
 
 namespace foothold {
 
@@ -17,5 +18,6 @@ struct ExecutorOf<Device::kCuda> {
 template struct TsdfOps<Device::kCuda>;
 template struct RaycasterOps<Device::kCuda>;
 template struct IcpOps<Device::kCuda>;
+template struct ViewCheckOps<Device::kCuda>;
 
 }  // namespace foothold

@@ -16,17 +16,17 @@ struct IcpSettings {
   /// Level at which alignment begins.
   int coarsest_level = 3;
   /// Level at which alignment ends.
-  int finest_level = 1;
+  int finest_level = 2;
   /// Steps at the coarsest level; the levels between are interpolated.
   int coarsest_steps = 10;
   /// Steps at the finest level.
-  int finest_steps = 4;
+  int finest_steps = 10;
   /// Solve for rotation alone at the coarsest level.
   bool rotation_first = false;
   /// Distance at which a residual counts as an outlier [m], at the coarsest level and 1 m of depth.
   float coarsest_outlier_m = 0.15F;
   /// The same at the finest level.
-  float finest_outlier_m = 0.02F;
+  float finest_outlier_m = 0.01F;
   /// Growth of the outlier distance with depth z [m]: 1 + growth * z^2.
   float outlier_growth = 0.3F;
   /// Growth of the assumed noise with depth, likewise: residuals are weighted by its inverse square.
@@ -43,7 +43,7 @@ struct IcpSettings {
     v(&IcpSettings::finest_level, "finest_level", "Level of the pyramid at which alignment ends (T: fusion_benchmark, kitchen).",
       Range{0, 6});
     v(&IcpSettings::coarsest_steps, "coarsest_steps", "Steps at the coarsest level (R).", Range{1, 100});
-    v(&IcpSettings::finest_steps, "finest_steps", "Steps at the finest level (T: fusion_benchmark, kitchen).", Range{1, 100});
+    v(&IcpSettings::finest_steps, "finest_steps", "Steps at the finest level (T: fusion_benchmark, office with exact poses).", Range{1, 100});
     v(&IcpSettings::rotation_first, "rotation_first", "Solve for rotation alone at the coarsest level (T: fusion_benchmark, kitchen).");
     v(&IcpSettings::coarsest_outlier_m, "coarsest_outlier_m", "Outlier distance at the coarsest level [m] (T: fusion_benchmark, kitchen).",
       Range{1e-3, 1.0});

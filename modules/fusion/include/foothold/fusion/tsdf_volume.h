@@ -25,7 +25,7 @@ struct TsdfSettings {
   /// Distance between voxels [m]; memory grows with its inverse square.
   float voxel_size_m = 0.01F;
   /// Distance from the surface at which the signed distance saturates [m].
-  float truncation_m = 0.04F;
+  float truncation_m = 0.06F;
   /// Observations averaged at most; fewer adapt faster to change, more average noise away.
   int max_weight = 255;
   /// Nearer depth readings are ignored [m].

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "fusion_run.h"
+
+#include <ctime>
+#include <numeric>
+
+#include "common/peak_memory.h"
+
+namespace foothold::apps {
+
+namespace {
+/// Processor time of all threads so far [ms].
+double process_cpu_ms() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
+
+void note(const RgbdFrame& frame, const FusionFrameResult& result, FusionRun& run) {
+  ++run.num_frames;
+  run.num_fused += result.fused ? 1 : 0;
+  run.wall_ms.push_back(result.total_ms);
+  if (!result.world_from_camera) {
+    ++run.num_lost;
+    return;
+  }
+  (result.quality == TrackingQuality::kGood ? run.num_good : run.num_poor) += 1;
+  run.confidences.push_back(static_cast<double>(result.confidence));
+  run.trajectory.push_back({frame.timestamp_s, *result.world_from_camera});
+  if (!frame.world_from_camera) return;
+  run.estimated.push_back(*result.world_from_camera);
+  run.truth.push_back(*frame.world_from_camera);
+}
+}  // namespace
+
+FusionRun run_fusion(const Context& context, Trace& trace, const Sequence& sequence, int stride, const FusionSettings& settings,
+                     const std::function<bool(int)>& progress) {
+  restart_peak_memory();
+  FusionPipeline pipeline(context, settings, nullptr);
+  FusionRun run;
+  for (int i = 0; i < sequence.num_frames(); i += stride) {
+    const RgbdFrame frame = sequence.load(i);
+    if (i == 0 && frame.world_from_camera) pipeline.start_at(*frame.world_from_camera);
+    trace.clear();
+    const double before_ms = process_cpu_ms();
+    const FusionFrameResult result = pipeline.process(frame.view());
+    run.cpu_ms.push_back(process_cpu_ms() - before_ms);
+    for (const auto& [stage, durations_ms] : trace.stages()) {
+      run.stages_ms[stage].push_back(std::accumulate(durations_ms.begin(), durations_ms.end(), 0.0));
+    }
+    note(frame, result, run);
+    if (!progress(run.num_frames)) break;
+  }
+  run.map_mb = 1e-6 * static_cast<double>(pipeline.volume().state_bytes());
+  run.peak_mb = peak_memory_mb();
+  return run;
+}
+
+}  // namespace foothold::apps

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// fusion_benchmark: how well, how fast and in how much memory the tracker follows a recording, without any relocaliser.
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "common/app_main.h"
+#include "common/progress_bar.h"
+#include "foothold/base/error.h"
+#include "foothold/evaluation/trajectory_error.h"
+#include "foothold/io/atomic_file.h"
+#include "foothold/io/sequence.h"
+#include "foothold/io/settings_file.h"
+#include "fusion_run.h"
+
+namespace foothold::apps {
+namespace {
+
+struct Options {
+  std::vector<std::string> sequences;
+  int stride = 1;
+  std::string settings_file;
+  std::vector<std::string> assignments;
+  std::string json_file;
+  std::string trajectory_file;
+  DeviceOptions device;
+};
+
+FusionSettings settings_of(const Options& options) {
+  FusionSettings settings;
+  if (!options.settings_file.empty()) load_settings(options.settings_file, settings);
+  for (const std::string& assignment : options.assignments) {
+    const std::size_t equals = assignment.find('=');
+    if (equals == std::string::npos || equals == 0) throw InvalidSettings("--set: got '" + assignment + "', expected setting=value");
+    assign_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
+  }
+  return settings;
+}
+
+/// ATE and drift, where the truth is known.
+struct Accuracy {
+  AbsoluteTrajectoryError raw;
+  AbsoluteTrajectoryError aligned;
+  RelativePoseError drift;  ///< over kDriftFrames
+};
+constexpr int kDriftFrames = 30;
+
+Accuracy accuracy_of(const FusionRun& run) {
+  if (run.truth.empty()) return {};
+  return {absolute_trajectory_error(run.estimated, run.truth, TrajectoryAlignment::kNone),
+          absolute_trajectory_error(run.estimated, run.truth, TrajectoryAlignment::kRigid),
+          relative_pose_error(run.estimated, run.truth, kDriftFrames)};
+}
+
+void print(const std::string& sequence, const FusionRun& run, const Accuracy& accuracy) {
+  std::printf("%s: %d frames, %d good, %d poor, %d lost, %d fused\n", sequence.c_str(), run.num_frames, run.num_good, run.num_poor,
+              run.num_lost, run.num_fused);
+  if (!run.truth.empty()) {
+    std::printf("  ATE RMSE %.2f cm raw, %.2f cm rigidly aligned (max %.2f); over %d frames %.2f cm, %.2f deg\n",
+                100.0 * accuracy.raw.rmse_m, 100.0 * accuracy.aligned.rmse_m, 100.0 * accuracy.aligned.max_m, kDriftFrames,
+                100.0 * accuracy.drift.translation_rmse_m, 57.29578 * accuracy.drift.rotation_rmse_rad);
+  }
+  std::printf("  confidence: median %.3f, 5 %% below %.3f, 1 %% below %.3f\n", quantile(run.confidences, 0.5),
+              quantile(run.confidences, 0.05), quantile(run.confidences, 0.01));
+  std::printf("  CPU ms per frame: median %.1f, 95 %% below %.1f; wall %.1f\n", quantile(run.cpu_ms, 0.5), quantile(run.cpu_ms, 0.95),
+              quantile(run.wall_ms, 0.5));
+  for (const auto& [stage, durations_ms] : run.stages_ms) std::printf("    %-18s %6.1f\n", stage.c_str(), quantile(durations_ms, 0.5));
+  std::printf("  map %.0f MB, process at most %.0f MB\n", run.map_mb, run.peak_mb);
+}
+
+nlohmann::json to_json(const std::string& sequence, const FusionRun& run, const Accuracy& accuracy) {
+  nlohmann::json json = {
+      {"sequence", sequence},
+      {"frames",
+       {{"all", run.num_frames}, {"good", run.num_good}, {"poor", run.num_poor}, {"lost", run.num_lost}, {"fused", run.num_fused}}},
+      {"cpu_ms", {{"median", quantile(run.cpu_ms, 0.5)}, {"p95", quantile(run.cpu_ms, 0.95)}}},
+      {"wall_ms", {{"median", quantile(run.wall_ms, 0.5)}, {"p95", quantile(run.wall_ms, 0.95)}}},
+      {"map_mb", run.map_mb},
+      {"peak_mb", run.peak_mb}};
+  for (const auto& [stage, durations_ms] : run.stages_ms) json["stages_wall_ms"][stage] = quantile(durations_ms, 0.5);
+  if (!run.truth.empty()) {
+    json["ate_m"] = {{"raw", accuracy.raw.rmse_m}, {"aligned", accuracy.aligned.rmse_m}, {"aligned_max", accuracy.aligned.max_m}};
+    json["drift_over_30_frames"] = {{"translation_m", accuracy.drift.translation_rmse_m},
+                                    {"rotation_rad", accuracy.drift.rotation_rmse_rad}};
+  }
+  return json;
+}
+
+int run(const Options& options) {
+  const FusionSettings settings = settings_of(options);
+  if (!options.trajectory_file.empty() && options.sequences.size() != 1) {
+    throw InvalidSettings("--trajectory: got " + std::to_string(options.sequences.size()) + " sequences, expected one");
+  }
+  nlohmann::json json = nlohmann::json::array();
+  for (const std::string& spec : options.sequences) {
+    Trace trace;
+    const Context context = make_context(options.device, &trace);
+    if (context.memory() != MemoryKind::kHost) throw InvalidSettings("--device: got cuda, expected cpu");
+    const std::shared_ptr<Sequence> sequence = open_sequence(spec, context);
+    FusionRun result;
+    {
+      ProgressBar bar(spec, (sequence->num_frames() + options.stride - 1) / options.stride);
+      result = run_fusion(context, trace, *sequence, options.stride, settings, [&](int done) {
+        bar.set(done);
+        return !interrupted();
+      });
+    }
+    if (interrupted()) return kInterrupted;
+    const Accuracy accuracy = accuracy_of(result);
+    print(spec, result, accuracy);
+    json.push_back(to_json(spec, result, accuracy));
+    if (!options.trajectory_file.empty()) write_trajectory(options.trajectory_file, result.trajectory);
+  }
+  if (!options.json_file.empty()) write_file_atomically(options.json_file, json.dump(1) + "\n");
+  return kSuccess;
+}
+
+}  // namespace
+}  // namespace foothold::apps
+
+int main(int argc, char** argv) {
+  using namespace foothold;
+  using namespace foothold::apps;
+  CLI::App app("Follows recordings with the tracker alone, from the first true pose, and reports accuracy, time and memory.",
+               "fusion_benchmark");
+  Options options;
+  app.add_option("--sequence", options.sequences, "A folder or synthetic:ROOM?setting=value&..., with @A:B for a part; repeatable")
+      ->required()
+      ->take_all();
+  app.add_option("--stride", options.stride, "Use every Nth frame")->check(CLI::Range(1, 1000000))->capture_default_str();
+  app.add_option("--settings", options.settings_file, "JSON file of settings")->type_name("FILE");
+  app.add_option("--set", options.assignments, "One setting as setting=value, such as icp.finest_level=1; repeatable")->take_all();
+  app.add_option("--json", options.json_file, "Write the results to FILE")->type_name("FILE");
+  app.add_option("--trajectory", options.trajectory_file, "Write the trajectory to FILE, in the format of the TUM benchmark")
+      ->type_name("FILE");
+  add_device_options(app, options.device);
+  return run_app(app, argc, argv, [&] { return run(options); });
+}

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// A whole reconstruction: tracks, judges, relocalises, refines, fuses and trains, frame by frame.
+#pragma once
+
+#include <optional>
+
+#include "foothold/fusion/pose_refiner.h"
+#include "foothold/fusion/recovery_policy.h"
+
+namespace foothold {
+
+struct FusionSettings {
+  TsdfSettings volume;
+  RaycasterSettings raycaster;
+  IcpSettings icp;
+  RecoverySettings recovery;
+  PoseRefinerSettings refiner;
+  /// The map is rendered for tracking in images reduced by this divisor.
+  int render_divisor = 4;
+  /// A frame that moved further than this since the last counts as poorly tracked at best: ICP may have snapped to another place.
+  float max_motion_m = 0.2F;
+  float max_motion_deg = 15.0F;
+  /// A frame whose view the acceptance classifier gives less than this probability counts as poorly tracked at best. The classifier's
+  /// probabilities hold if right and wrong poses are equally frequent; tracked ones are nearly always right, so that much less than a half is
+  /// still good.
+  float min_view_probability = 0.2F;
+
+  template <class Visitor>
+  static void fields(Visitor& v) {
+    v(&FusionSettings::volume, "volume");
+    v(&FusionSettings::raycaster, "raycaster");
+    v(&FusionSettings::icp, "icp");
+    v(&FusionSettings::recovery, "recovery");
+    v(&FusionSettings::refiner, "refiner");
+    v(&FusionSettings::render_divisor, "render_divisor",
+      "Reduction of the renderings that frames are tracked against (T: fusion_benchmark, kitchen).", Range{1, 16});
+    v(&FusionSettings::max_motion_m, "max_motion_m",
+      "Motion between frames beyond which tracking is doubted [m] (T: replay_sequence, kitchen).", Range{0.001, 100.0});
+    v(&FusionSettings::max_motion_deg, "max_motion_deg", "The same for rotation [deg] (T: replay_sequence, kitchen).", Range{0.01, 180.0});
+    v(&FusionSettings::min_view_probability, "min_view_probability",
+      "Probability below which a view is doubted (T: fusion_benchmark, teddy).", Range{0.0, 1.0});
+  }
+  void validate() const;
+};
+
+/// What became of a frame.
+struct FusionFrameResult {
+  RecoveryState state = RecoveryState::kTracking;      ///< after the frame
+  TrackingQuality quality = TrackingQuality::kFailed;  ///< of tracking, or of the pose after relocalisation
+  float quality_score = 0.0F;
+  /// The camera's pose; empty while lost.
+  std::optional<SE3> world_from_camera;
+  /// Probability that the pose is right; 0 while lost.
+  float confidence = 0.0F;
+  bool relocaliser_asked = false;
+  bool relocalised = false;  ///< the pose is the relocaliser's, refined
+  bool fused = false;
+  bool trained = false;
+  ViewAgreement agreement;
+  double track_ms = 0.0;
+  double relocalise_ms = 0.0;
+  double fuse_ms = 0.0;
+  double train_ms = 0.0;
+  double render_ms = 0.0;
+  double total_ms = 0.0;
+};
+
+/// Drives the parts as RecoveryPolicy says. While lost, the map and the relocaliser never change. When lost, the last known pose is a
+/// candidate, too: a camera that was covered for a moment is found again even without a relocaliser.
+///
+/// Copies are independent but for the relocaliser, which is the caller's.
+class FusionPipeline {
+ public:
+  /// @param relocaliser  Trained on good frames and asked when lost; nullptr for tracking alone. Must outlive the pipeline. Its proposals
+  /// are
+  ///                     refined here: pass the bare relocaliser, not a RefiningRelocaliser.
+  /// @throws InvalidSettings
+  FusionPipeline(const Context& context, const FusionSettings& settings, Relocaliser* relocaliser);
+  /// Copies the map, the pose and the state of recovery, to go on with another relocaliser.
+  FusionPipeline(const FusionPipeline& other, Relocaliser* relocaliser);
+  ~FusionPipeline();
+  FusionPipeline(FusionPipeline&&) noexcept;
+  FusionPipeline& operator=(FusionPipeline&&) noexcept;
+
+  /// Sets the pose of the first frame; the identity otherwise. @pre No frame was processed since construction or reset().
+  void start_at(const SE3& world_from_camera);
+
+  /// Takes the next frame. The first with depth starts the map. Malformed and empty frames count as lost ones.
+  /// @pre The frame's images live in the context's memory.
+  FusionFrameResult process(const Frame& frame);
+
+  /// Makes tracking of the next frame fail, whatever it shows: for tests and benchmarks.
+  void force_loss() { loss_forced_ = true; }
+
+  /// Forgets map, pose and state, and resets the relocaliser.
+  void reset();
+
+  const TsdfVolume& volume() const { return volume_; }
+  /// The rendering that the next frame is tracked against, with colour; empty before the first frame.
+  const SurfaceMap& rendering() const { return rendering_; }
+  RecoveryState state() const { return policy_.state(); }
+  const FusionSettings& settings() const { return settings_; }
+
+ private:
+  /// What is known of a frame's pose before the policy decides.
+  struct Sighting {
+    TrackingQuality tracked = TrackingQuality::kFailed;
+    SE3 tracked_world_from_camera;
+    RelocalisationOutcome outcome = RelocalisationOutcome::kNotAsked;
+    RefinedPose found;  ///< if the outcome is a pose
+  };
+
+  void start(const Frame& frame, FusionFrameResult& result);
+  void follow(const Frame& frame, bool well_formed, bool may_track, FusionFrameResult& result);
+  void track(const Frame& frame, Sighting& sighting, FusionFrameResult& result);
+  void relocalise(const Frame& frame, Sighting& sighting, FusionFrameResult& result);
+  void learn(const Frame& frame, FusionFrameResult& result);
+  void render(const Frame& frame, FusionFrameResult& result);
+
+  Context context_;
+  FusionSettings settings_;
+  Relocaliser* relocaliser_;
+  TsdfVolume volume_;
+  Raycaster raycaster_;
+  IcpTracker icp_;
+  ViewCheck check_;
+  PoseRefiner refiner_;
+  RecoveryPolicy policy_;
+  SurfaceMap rendering_;
+  SE3 world_from_camera_;
+  bool started_ = false;
+  bool loss_forced_ = false;
+};
+
+}  // namespace foothold

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Chooses among proposed poses by aligning each with the map and asking whether the frame shows what the map says.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "foothold/api/relocaliser.h"
+#include "foothold/base/settings.h"
+#include "foothold/fusion/classifier.h"
+#include "foothold/fusion/icp_tracker.h"
+#include "foothold/fusion/view_check.h"
+
+namespace foothold {
+
+struct PoseRefinerSettings {
+  /// Proposals that are looked at, best first.
+  int max_candidates = 16;
+  /// Of those, how many are refined to the end.
+  int num_finalists = 3;
+  /// Proposals and results nearer than this count as one.
+  float same_pose_m = 0.05F;
+  float same_pose_deg = 5.0F;
+  /// First, candidates are aligned and ranked in images reduced by this divisor.
+  int coarse_divisor = 8;
+  /// Finalists are aligned and judged in images reduced by this divisor.
+  int fine_divisor = 4;
+  /// A second, different pose must score at least this much less than the best, or the place is ambiguous and neither is believed.
+  float ambiguity_margin = 0.5F;
+  /// Poses from which less than this part of the frame falls on the map are refused outright: what little there is agrees easily.
+  float min_overlap = 0.2F;
+  IcpSettings icp;
+  ViewCheckSettings check;
+
+  template <class Visitor>
+  static void fields(Visitor& v) {
+    v(&PoseRefinerSettings::max_candidates, "max_candidates", "Proposals that are looked at (R).", Range{1, 1000});
+    v(&PoseRefinerSettings::num_finalists, "num_finalists", "Proposals that are refined to the end (T: replay_sequence, kitchen).",
+      Range{1, 1000});
+    v(&PoseRefinerSettings::same_pose_m, "same_pose_m", "Poses nearer than this and same_pose_deg are one [m].", Range{0.0, 1.0});
+    v(&PoseRefinerSettings::same_pose_deg, "same_pose_deg", "Poses nearer than this and same_pose_m are one [deg].", Range{0.0, 90.0});
+    v(&PoseRefinerSettings::coarse_divisor, "coarse_divisor",
+      "Reduction of the images in which all candidates are ranked (T: replay_sequence, kitchen).", Range{1, 32});
+    v(&PoseRefinerSettings::fine_divisor, "fine_divisor",
+      "Reduction of the images in which finalists are judged (T: replay_sequence, kitchen).", Range{1, 32});
+    v(&PoseRefinerSettings::ambiguity_margin, "ambiguity_margin", "Lead in score over the next different pose (T: train_quality_gate).",
+      Range{0.0, 100.0});
+    v(&PoseRefinerSettings::min_overlap, "min_overlap", "Part of the frame that must fall on the map (T: train_quality_gate; R: 0.1).",
+      Range{0.0, 1.0});
+    v(&PoseRefinerSettings::icp, "icp");
+    v(&PoseRefinerSettings::check, "check");
+  }
+  void validate() const;
+};
+
+/// A proposal after refinement.
+struct RefinedPose {
+  SE3 world_from_camera;
+  float score = 0.0F;        ///< of the acceptance classifier; higher is better
+  float probability = 0.0F;  ///< calibrated, of the pose being right
+  bool accepted = false;     ///< above the classifier's threshold, and unambiguous
+  TrackingMeasures measures;
+  ViewAgreement agreement;
+  int candidate = 0;  ///< index of the proposal
+};
+
+inline constexpr std::size_t kNumAcceptanceFeatures = 10;
+
+/// What the acceptance classifier looks at: how the frame compares with the rendering, and how alignment went.
+std::array<float, kNumAcceptanceFeatures> acceptance_features(const TrackingMeasures& measures, const ViewAgreement& agreement);
+/// The names of acceptance_features(), in order.
+std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names();
+
+/// Refines proposed poses by ICP on the map, ranks them by rendering, and accepts only what can be believed.
+///
+/// Every candidate is rendered coarsely, aligned and scored; the best few are rendered finely, aligned twice and judged: depth that agrees,
+/// surfaces that the frame looks through, things in the map's free space, too little overlap, colour, residual and Hessian all count.
+class PoseRefiner {
+ public:
+  /// @throws InvalidSettings
+  explicit PoseRefiner(const Context& context, const PoseRefinerSettings& settings = {},
+                       const ClassifierModel& classifier = default_acceptance_classifier());
+
+  /// @return The finalists by falling score; only the first can be accepted. Empty without proposals.
+  /// @pre describe_frame_error(frame) is empty; frame and volume live in the context's memory.
+  std::vector<RefinedPose> refine(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals);
+
+  /// Aligns one pose to the end, without ranking: the ceiling that refinement is measured against when started from the true pose.
+  RefinedPose refine_one(const Frame& frame, const TsdfVolume& volume, const SE3& proposal);
+
+  /// What the acceptance classifier says of a pose that someone else aligned; all but the pose is filled in.
+  RefinedPose judge(const TrackingMeasures& measures, const ViewAgreement& agreement) const;
+
+  /// Whether a pose scores so low that right ones hardly ever do.
+  bool is_hopeless(const RefinedPose& pose) const { return pose.score < classifier_.poor_threshold; }
+
+  /// The probability at which poses are accepted.
+  float acceptance_probability() const;
+
+ private:
+  RefinedPose align_coarsely(const Frame& frame, const TsdfVolume& volume, const SE3& proposal);
+  RefinedPose align_finely(const Frame& frame, const TsdfVolume& volume, const SE3& proposal);
+  RefinedPose judge_rendered(const TrackingResult& tracked);
+  bool is_same(const SE3& a, const SE3& b) const;
+
+  PoseRefinerSettings settings_;
+  ClassifierModel classifier_;
+  Raycaster raycaster_;
+  IcpTracker coarse_icp_;
+  IcpTracker fine_icp_;
+  ViewCheck check_;
+  SurfaceMap map_;
+};
+
+}  // namespace foothold

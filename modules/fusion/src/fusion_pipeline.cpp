@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/fusion/fusion_pipeline.h"
+
+#include <algorithm>
+
+#include "foothold/base/contract.h"
+
+namespace foothold {
+
+namespace {
+constexpr float kDegPerRad = 57.29578F;
+/// A relocalised pose this near to the tracked one confirms it: the error at which the papers of the field call a relocalisation right.
+constexpr float kSamePlaceM = 0.05F;
+constexpr float kSamePlaceDeg = 5.0F;
+
+bool is_near(const SE3& a, const SE3& b, float distance_m, float angle_deg) {
+  return translation_distance_m(a, b) < distance_m && rotation_distance_rad(a, b) * kDegPerRad < angle_deg;
+}
+}  // namespace
+
+void FusionSettings::validate() const {
+  validate_settings(*this);
+  volume.validate();
+  icp.validate();
+  refiner.validate();
+}
+
+FusionPipeline::FusionPipeline(const Context& context, const FusionSettings& settings, Relocaliser* relocaliser)
+    : context_(context),
+      settings_(settings),
+      relocaliser_(relocaliser),
+      volume_(context, settings.volume),
+      raycaster_(context, settings.raycaster),
+      icp_(context, settings.icp),
+      check_(context, settings.refiner.check),
+      refiner_(context, settings.refiner),
+      policy_(settings.recovery),
+      rendering_(context.memory()) {
+  settings.validate();
+}
+
+FusionPipeline::FusionPipeline(const FusionPipeline& other, Relocaliser* relocaliser)
+    : FusionPipeline(other.context_, other.settings_, relocaliser) {
+  volume_ = other.volume_;
+  policy_ = other.policy_;
+  rendering_ = other.rendering_;
+  world_from_camera_ = other.world_from_camera_;
+  started_ = other.started_;
+  loss_forced_ = other.loss_forced_;
+}
+
+FusionPipeline::~FusionPipeline() = default;
+FusionPipeline::FusionPipeline(FusionPipeline&&) noexcept = default;
+FusionPipeline& FusionPipeline::operator=(FusionPipeline&&) noexcept = default;
+
+void FusionPipeline::start_at(const SE3& world_from_camera) {
+  FOOTHOLD_EXPECTS(!started_);
+  FOOTHOLD_EXPECTS(is_rigid(world_from_camera, 1e-3F));
+  world_from_camera_ = world_from_camera;
+}
+
+void FusionPipeline::reset() {
+  volume_.reset();
+  policy_.reset();
+  rendering_ = SurfaceMap(context_.memory());
+  world_from_camera_ = SE3{};
+  started_ = false;
+  loss_forced_ = false;
+  if (relocaliser_ != nullptr) relocaliser_->reset();
+}
+
+FusionFrameResult FusionPipeline::process(const Frame& frame) {
+  const Stopwatch total;
+  FusionFrameResult result;
+  const bool well_formed = describe_frame_error(frame).empty();
+  const bool may_track = !loss_forced_;
+  loss_forced_ = false;
+  if (started_) {
+    follow(frame, well_formed, may_track, result);
+  } else if (well_formed) {
+    start(frame, result);
+  } else {
+    result.state = RecoveryState::kLost;
+  }
+  result.total_ms = total.elapsed_ms();
+  return result;
+}
+
+/// The first frame defines the map, unless there is nothing on it.
+void FusionPipeline::start(const Frame& frame, FusionFrameResult& result) {
+  learn(frame, result);
+  if (volume_.num_blocks() == 0) {
+    volume_.reset();
+    result = {};
+    result.state = RecoveryState::kLost;
+    return;
+  }
+  started_ = true;
+  result.quality = TrackingQuality::kGood;
+  result.confidence = 1.0F;
+  result.world_from_camera = world_from_camera_;
+  render(frame, result);
+}
+
+void FusionPipeline::follow(const Frame& frame, bool well_formed, bool may_track, FusionFrameResult& result) {
+  Sighting sighting;
+  if (well_formed && may_track && policy_.should_track()) track(frame, sighting, result);
+  if (policy_.should_relocalise(sighting.tracked)) {
+    sighting.outcome = RelocalisationOutcome::kNothing;
+    if (well_formed) relocalise(frame, sighting, result);
+  }
+  const RecoveryDecision decision = policy_.update(sighting.tracked, sighting.outcome);
+  result.state = decision.state;
+  if (decision.pose == PoseSource::kNone) {
+    result.confidence = 0.0F;
+    return;
+  }
+  result.relocalised = decision.pose == PoseSource::kRelocaliser;
+  world_from_camera_ = result.relocalised ? sighting.found.world_from_camera : sighting.tracked_world_from_camera;
+  result.world_from_camera = world_from_camera_;
+  if (decision.fuse) learn(frame, result);
+  render(frame, result);
+}
+
+void FusionPipeline::track(const Frame& frame, Sighting& sighting, FusionFrameResult& result) {
+  const Stopwatch watch;
+  icp_.set_frame(frame);
+  const TrackingResult tracked = icp_.track(rendering_, world_from_camera_);
+  const TrackingJudgement judgement = judge_tracking(tracked.measures);
+  result.quality = judgement.quality;
+  result.quality_score = judgement.score;
+  result.confidence = judgement.probability;
+  if (judgement.quality != TrackingQuality::kFailed) {
+    check_.set_frame(frame);
+    result.agreement = check_.compare(rendering_, tracked.world_from_camera);
+    const RefinedPose view = refiner_.judge(tracked.measures, result.agreement);
+    result.confidence = std::min(result.confidence, view.probability);
+    if (!is_near(tracked.world_from_camera, world_from_camera_, settings_.max_motion_m, settings_.max_motion_deg) ||
+        view.probability < settings_.min_view_probability) {
+      result.quality = TrackingQuality::kPoor;
+    }
+    if (refiner_.is_hopeless(view)) result.quality = TrackingQuality::kFailed;
+  }
+  sighting.tracked = result.quality;
+  sighting.tracked_world_from_camera = tracked.world_from_camera;
+  result.track_ms = watch.elapsed_ms();
+}
+
+/// Asks the relocaliser, and the map whether to believe it.
+void FusionPipeline::relocalise(const Frame& frame, Sighting& sighting, FusionFrameResult& result) {
+  const ScopedStage stage(context_, "fusion/relocalise");
+  const Stopwatch watch;
+  std::vector<PoseEstimate> proposals;
+  if (sighting.tracked == TrackingQuality::kFailed) proposals.push_back({world_from_camera_, 0.0F});
+  if (relocaliser_ != nullptr) {
+    result.relocaliser_asked = true;
+    const std::vector<PoseEstimate> estimates = relocaliser_->relocalise(frame);
+    proposals.insert(proposals.end(), estimates.begin(), estimates.end());
+  }
+  const std::vector<RefinedPose> refined = refiner_.refine(frame, volume_, proposals);
+  result.relocalise_ms = watch.elapsed_ms();
+  if (refined.empty() || !refined.front().accepted) return;
+  const RefinedPose& found = refined.front();
+  const TrackingJudgement judgement = judge_tracking(found.measures);
+  if (judgement.quality != TrackingQuality::kGood) return;
+  if (sighting.tracked != TrackingQuality::kFailed) {
+    if (is_near(found.world_from_camera, sighting.tracked_world_from_camera, kSamePlaceM, kSamePlaceDeg)) {
+      sighting.outcome = RelocalisationOutcome::kConfirms;
+      return;
+    }
+    // A second opinion overrules tracking only if it explains the frame better than the pose being tracked does.
+    if (found.score <= refiner_.refine_one(frame, volume_, sighting.tracked_world_from_camera).score) return;
+  }
+  sighting.outcome = RelocalisationOutcome::kElsewhere;
+  sighting.found = found;
+  result.quality = judgement.quality;
+  result.quality_score = judgement.score;
+  result.confidence = found.probability;
+  result.agreement = found.agreement;
+}
+
+/// Fuses the frame and trains the relocaliser with it.
+void FusionPipeline::learn(const Frame& frame, FusionFrameResult& result) {
+  const Stopwatch watch;
+  volume_.integrate(frame, world_from_camera_);
+  result.fused = true;
+  result.fuse_ms = watch.elapsed_ms();
+  if (relocaliser_ == nullptr) return;
+  relocaliser_->train(frame, world_from_camera_);
+  relocaliser_->update();
+  result.trained = true;
+  result.train_ms = watch.elapsed_ms() - result.fuse_ms;
+}
+
+void FusionPipeline::render(const Frame& frame, FusionFrameResult& result) {
+  const Stopwatch watch;
+  const RenderCamera camera{frame.calibration.depth, frame.depth.width, frame.depth.height, world_from_camera_};
+  raycaster_.render(volume_, camera.reduced(settings_.render_divisor), rendering_, true);
+  result.render_ms = watch.elapsed_ms();
+}
+
+}  // namespace foothold

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Sampling of a frame and its comparison with a rendering.
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "tsdf_view.h"
+#include "view_check_ops.h"
+
+namespace foothold {
+
+/// Grey of a colour, in [0, 1], by the luma weights of ITU-R BT.601.
+FOOTHOLD_HD inline float grey_of(const Rgb8& colour) {
+  return (0.299F * static_cast<float>(colour.r) + 0.587F * static_cast<float>(colour.g) + 0.114F * static_cast<float>(colour.b)) *
+         (1.0F / 255.0F);
+}
+
+struct SampleFrame {
+  ImageView<const float> depth;
+  ColourView colour;
+  Intrinsics depth_intrinsics;
+  Intrinsics colour_intrinsics;
+  SE3 colour_from_depth;
+  int stride_px;
+  int width;
+  float min_depth_m;
+  float max_depth_m;
+  CheckPixel* pixels;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    const int u = static_cast<int>(i) % width * stride_px + stride_px / 2;
+    const int v = static_cast<int>(i) / width * stride_px + stride_px / 2;
+    const float depth_m = depth(u, v);
+    const bool usable = depth_m >= min_depth_m && depth_m <= max_depth_m;
+    pixels[i] = {usable ? depth_m : 0.0F, usable ? grey_at(u, v, depth_m) : -1.0F};
+  }
+
+  FOOTHOLD_HD float grey_at(int u, int v, float depth_m) const {
+    const Eigen::Vector3f point = colour_from_depth * depth_intrinsics.back_project(static_cast<float>(u), static_cast<float>(v), depth_m);
+    if (point.z() <= 0.0F) return -1.0F;
+    const Eigen::Vector2f pixel = colour_intrinsics.project(point);
+    const int cu = floor_to_int(pixel.x() + 0.5F);
+    const int cv = floor_to_int(pixel.y() + 0.5F);
+    if (cu < 0 || cv < 0 || cu >= colour.width || cv >= colour.height) return -1.0F;
+    // The mean over the pixels that this one stands for: renderings are smooth, and single pixels would alias.
+    float sum = 0.0F;
+    int count = 0;
+    for (int y = cv - stride_px / 2; y <= cv + (stride_px - 1) / 2; ++y) {
+      for (int x = cu - stride_px / 2; x <= cu + (stride_px - 1) / 2; ++x) {
+        if (x < 0 || y < 0 || x >= colour.width || y >= colour.height) continue;
+        sum += grey_of(colour(x, y));
+        ++count;
+      }
+    }
+    return sum / static_cast<float>(count);
+  }
+};
+
+/// Compares one tile of the frame; its sums stay apart, so that texture can be told from shade.
+struct CompareTile {
+  static constexpr int kSide = 8;
+
+  const CheckPixel* pixels;
+  int width;
+  int height;
+  int num_columns;  ///< of tiles
+  Intrinsics intrinsics;
+  const SurfacePixel* model;
+  const Rgb8* colours;  ///< nullptr without colour
+  Intrinsics model_intrinsics;
+  int model_width;
+  int model_height;
+  SE3 model_from_camera;
+  float tolerance_m;
+  float tolerance_growth;
+  float* tile_sums;
+
+  struct Scratch {};
+
+  template <class Team>
+  FOOTHOLD_HD void operator()(const Team& team, Scratch&, std::size_t tile) const {
+    float sums[kNumCheckSums] = {};
+    const int u0 = static_cast<int>(tile) % num_columns * kSide;
+    const int v0 = static_cast<int>(tile) / num_columns * kSide;
+    for (int i = team.lane(); i < kSide * kSide; i += team.size()) {
+      const int u = u0 + i % kSide;
+      const int v = v0 + i / kSide;
+      if (u < width && v < height) add(u, v, sums);
+    }
+    team.sum_all(sums);
+    for (int j = team.lane(); j < kNumCheckSums; j += team.size()) tile_sums[tile * kNumCheckSums + static_cast<std::size_t>(j)] = sums[j];
+  }
+
+  FOOTHOLD_HD void add(int live_u, int live_v, float (&sums)[kNumCheckSums]) const {
+    const CheckPixel live = pixels[live_v * width + live_u];
+    if (live.depth_m <= 0.0F) return;
+    sums[kValid] += 1.0F;
+    const Eigen::Vector3f point =
+        model_from_camera * intrinsics.back_project(static_cast<float>(live_u), static_cast<float>(live_v), live.depth_m);
+    if (point.z() <= 0.0F) return;
+    const Eigen::Vector2f pixel = model_intrinsics.project(point);
+    const int u = floor_to_int(pixel.x() + 0.5F);
+    const int v = floor_to_int(pixel.y() + 0.5F);
+    if (u < 0 || v < 0 || u >= model_width || v >= model_height) return;
+    const float depth_m = model[v * model_width + u].depth_m;
+    if (depth_m <= 0.0F) return;
+    sums[kOverlap] += 1.0F;
+    const float tolerance = tolerance_m + tolerance_growth * depth_m * depth_m;
+    const float difference = (point.z() - depth_m) / tolerance;
+    const float magnitude = std::abs(difference);
+    sums[kDifference] += magnitude < 3.0F ? magnitude : 3.0F;
+    if (magnitude > 1.0F) {
+      sums[difference < 0.0F ? kFront : kBehind] += 1.0F;
+      return;
+    }
+    sums[kAgree] += 1.0F;
+    if (colours == nullptr || live.grey < 0.0F) return;
+    const Rgb8 colour = colours[v * model_width + u];
+    if ((colour.r | colour.g | colour.b) == 0) return;
+    const float grey = grey_of(colour);
+    sums[kColours] += 1.0F;
+    sums[kLive] += live.grey;
+    sums[kModel] += grey;
+    sums[kLive2] += live.grey * live.grey;
+    sums[kModel2] += grey * grey;
+    sums[kLiveModel] += live.grey * grey;
+  }
+};
+
+template <Device kDevice>
+void ViewCheckOps<kDevice>::sample_frame(const Context& context, const Frame& frame, const ViewCheckSettings& settings, Scratch& scratch) {
+  const typename ExecutorOf<kDevice>::Type exec(context);
+  exec.for_each(scratch.pixels.size(), SampleFrame{frame.depth, frame.colour, frame.calibration.depth, frame.calibration.colour,
+                                                   frame.calibration.depth_from_colour.inverse(), settings.stride_px, scratch.width,
+                                                   settings.min_depth_m, settings.max_depth_m, scratch.pixels.data()});
+}
+
+template <Device kDevice>
+std::vector<float> ViewCheckOps<kDevice>::compare(const Context& context, const SurfaceMap& model, const SE3& model_from_camera,
+                                                  const ViewCheckSettings& settings, Scratch& scratch) {
+  const typename ExecutorOf<kDevice>::Type exec(context);
+  const int num_columns = (scratch.width + CompareTile::kSide - 1) / CompareTile::kSide;
+  const int num_rows = (scratch.height + CompareTile::kSide - 1) / CompareTile::kSide;
+  const auto num_tiles = static_cast<std::size_t>(num_columns * num_rows);
+  scratch.tile_sums.resize(num_tiles * kNumCheckSums);
+  exec.template for_each_team<CompareTile::Scratch>(
+      num_tiles,
+      CompareTile{scratch.pixels.data(), scratch.width, scratch.height, num_columns, scratch.intrinsics, model.pixels.data(),
+                  model.colours.empty() ? nullptr : model.colours.data(), model.camera.intrinsics, model.camera.width, model.camera.height,
+                  model_from_camera, settings.tolerance_m, settings.tolerance_growth, scratch.tile_sums.data()});
+  return scratch.tile_sums.to_host(context);
+}
+
+}  // namespace foothold

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/fusion/fusion_pipeline.h"
+
+#include <sstream>
+
+#include "foothold/base/error.h"
+#include "room_recording.h"
+#include "scene.h"
+#include "support/catch.h"
+
+namespace foothold {
+namespace {
+
+/// Knows the truth about a frame, and what it was taught.
+class OracleRelocaliser final : public Relocaliser {
+ public:
+  void train(const Frame& frame, const SE3&) override { trained.push_back(frame.index); }
+  std::vector<PoseEstimate> relocalise(const Frame&) override {
+    ++num_asked;
+    return answers;
+  }
+  void update() override {}
+  void reset() override { trained.clear(); }
+  std::size_t state_bytes() const override { return 0; }
+  float acceptance_threshold() const override { return 0.1F; }
+
+  std::vector<PoseEstimate> answers;
+  std::vector<std::int64_t> trained;
+  int num_asked = 0;
+};
+
+std::string bytes_of(const TsdfVolume& volume) {
+  std::ostringstream stream;
+  volume.save(stream);
+  return stream.str();
+}
+
+RgbdFrame black_frame(int index) {
+  RgbdFrame frame = test::office().frame(index);
+  for (std::size_t i = 0; i < frame.depth.size(); ++i) {
+    frame.depth.data()[i] = 0.0F;
+    frame.colour.data()[i] = {};
+  }
+  return frame;
+}
+
+/// A pipeline that has followed the office's first frames.
+constexpr int kNumFollowed = 24;
+struct Followed {
+  explicit Followed(const FusionSettings& settings = {}) : pipeline(Context(), settings, &oracle) {
+    pipeline.start_at(test::office().pose(0));
+    for (int i = 0; i < kNumFollowed; ++i) last = pipeline.process(test::office().frame(i).view());
+  }
+  FusionFrameResult process(int index) { return last = pipeline.process(test::office().frame(index).view()); }
+  void answer(const SE3& pose) { oracle.answers = {{pose, 0.9F}}; }
+
+  OracleRelocaliser oracle;
+  FusionPipeline pipeline;
+  FusionFrameResult last;
+};
+
+TEST_CASE("FusionPipeline: follows a camera, fusing and training on every frame") {
+  Followed run;
+  REQUIRE(run.last.state == RecoveryState::kTracking);
+  REQUIRE(run.last.quality == TrackingQuality::kGood);
+  REQUIRE(run.last.fused);
+  REQUIRE(run.last.trained);
+  REQUIRE(run.oracle.trained.size() == kNumFollowed);
+  REQUIRE(run.oracle.num_asked == 0);
+  REQUIRE(run.last.confidence > 0.5F);
+  REQUIRE(translation_distance_m(*run.last.world_from_camera, test::office().pose(kNumFollowed - 1)) < 0.01F);  // a voxel
+  REQUIRE(rotation_distance_rad(*run.last.world_from_camera, test::office().pose(kNumFollowed - 1)) < 0.01F);
+}
+
+TEST_CASE("FusionPipeline: while lost, neither the map nor the relocaliser changes by a bit") {
+  Followed run;
+  const std::string before = bytes_of(run.pipeline.volume());
+  const std::size_t num_trained = run.oracle.trained.size();
+  test::RoomRecording elsewhere("synthetic:lounge?frames=40");
+  for (int i = 0; i < 12; ++i) {
+    // The relocaliser is wrong all the while: it names places in the map.
+    run.answer(test::office().pose(i));
+    run.last = run.pipeline.process(i % 3 == 2 ? black_frame(i).view() : elsewhere.frame(3 * i).view());
+    REQUIRE(run.last.state == RecoveryState::kLost);
+    REQUIRE_FALSE(run.last.world_from_camera.has_value());
+    REQUIRE(run.last.confidence == 0.0F);
+    REQUIRE_FALSE(run.last.fused);
+    REQUIRE_FALSE(run.last.trained);
+    REQUIRE(run.last.relocaliser_asked);
+  }
+  REQUIRE(bytes_of(run.pipeline.volume()) == before);
+  REQUIRE(run.oracle.trained.size() == num_trained);
+}
+
+TEST_CASE("FusionPipeline: recovers from a kidnap at once, and holds fusion back until tracking has settled") {
+  Followed run;
+  run.process(250);  // far away; the relocaliser knows nothing
+  REQUIRE(run.last.state == RecoveryState::kLost);
+  const std::string before = bytes_of(run.pipeline.volume());
+  const int resumed = 10;
+  run.answer(test::office().pose(resumed) * se3_exp((Tangent6() << 0.02F, -0.02F, 0.01F, 0.02F, 0.03F, -0.02F).finished()));
+  run.process(resumed);
+  REQUIRE(run.last.state == RecoveryState::kSettling);
+  REQUIRE(run.last.relocalised);
+  REQUIRE(translation_distance_m(*run.last.world_from_camera, test::office().pose(resumed)) < 0.01F);
+  REQUIRE_FALSE(run.last.fused);
+  const int hold = run.pipeline.settings().recovery.settle_frames;
+  for (int i = 1; i <= hold; ++i) {
+    run.answer(test::office().pose(resumed + i));
+    run.process(resumed + i);
+    CAPTURE(i, to_string(run.last.quality), run.last.quality_score, run.last.confidence, run.last.agreement.overlap,
+            run.last.agreement.agreement);
+    REQUIRE(run.last.state == RecoveryState::kSettling);
+    REQUIRE_FALSE(run.last.fused);
+    REQUIRE_FALSE(run.last.relocalised);
+  }
+  REQUIRE(bytes_of(run.pipeline.volume()) == before);
+  run.process(resumed + hold + 1);
+  REQUIRE(run.last.state == RecoveryState::kTracking);
+  REQUIRE(run.last.fused);
+  REQUIRE(run.last.trained);
+  REQUIRE(bytes_of(run.pipeline.volume()) != before);
+}
+
+TEST_CASE("FusionPipeline: a blackout is a loss, and the last pose is tried again even without a relocaliser") {
+  FusionPipeline pipeline(Context(), {}, nullptr);
+  pipeline.start_at(test::office().pose(0));
+  for (int i = 0; i < kNumFollowed; ++i) pipeline.process(test::office().frame(i).view());
+  const std::string before = bytes_of(pipeline.volume());
+  for (int i = 0; i < 3; ++i) REQUIRE(pipeline.process(black_frame(kNumFollowed).view()).state == RecoveryState::kLost);
+  const FusionFrameResult result = pipeline.process(test::office().frame(kNumFollowed + 1).view());
+  REQUIRE(result.state == RecoveryState::kSettling);
+  REQUIRE_FALSE(result.relocaliser_asked);
+  REQUIRE(translation_distance_m(*result.world_from_camera, test::office().pose(kNumFollowed + 1)) < 0.01F);
+  REQUIRE(bytes_of(pipeline.volume()) == before);
+}
+
+TEST_CASE("FusionPipeline: a forced loss is one whatever the frame shows") {
+  Followed run;
+  run.answer(test::office().pose(kNumFollowed));
+  run.pipeline.force_loss();
+  run.process(kNumFollowed);
+  REQUIRE(run.last.relocalised);
+  REQUIRE(run.last.state == RecoveryState::kSettling);
+  run.process(kNumFollowed + 1);
+  REQUIRE_FALSE(run.last.relocalised);
+}
+
+TEST_CASE("FusionPipeline: malformed frames count as lost ones, before and after the start") {
+  OracleRelocaliser oracle;
+  FusionPipeline pipeline(Context(), {}, &oracle);
+  RgbdFrame malformed = test::office().frame(0);
+  malformed.colour = Image<Rgb8>(8, 8);
+  for (const Frame& frame : {malformed.view(), Frame{}, black_frame(0).view()}) {
+    const FusionFrameResult result = pipeline.process(frame);
+    REQUIRE(result.state == RecoveryState::kLost);
+    REQUIRE_FALSE(result.world_from_camera.has_value());
+    REQUIRE(pipeline.volume().num_blocks() == 0);
+  }
+  pipeline.start_at(test::office().pose(0));  // nothing has begun yet
+  for (int i = 0; i < kNumFollowed; ++i) pipeline.process(test::office().frame(i).view());
+  REQUIRE(pipeline.state() == RecoveryState::kTracking);
+  const std::string before = bytes_of(pipeline.volume());
+  for (const Frame& frame : {malformed.view(), Frame{}}) REQUIRE(pipeline.process(frame).state == RecoveryState::kLost);
+  oracle.answers = {{test::office().pose(kNumFollowed), 0.9F}};
+  REQUIRE(pipeline.process(test::office().frame(kNumFollowed).view()).state == RecoveryState::kSettling);
+  REQUIRE(bytes_of(pipeline.volume()) == before);
+}
+
+TEST_CASE("FusionPipeline: a copy goes on by itself with another relocaliser") {
+  Followed run;
+  OracleRelocaliser other;
+  FusionPipeline copy(run.pipeline, &other);
+  const std::string before = bytes_of(run.pipeline.volume());
+  const FusionFrameResult result = copy.process(test::office().frame(kNumFollowed).view());
+  REQUIRE(result.fused);
+  REQUIRE(other.trained.size() == 1);
+  REQUIRE(run.oracle.trained.size() == kNumFollowed);
+  REQUIRE(bytes_of(run.pipeline.volume()) == before);
+  run.process(kNumFollowed);
+  REQUIRE(bytes_of(run.pipeline.volume()) == bytes_of(copy.volume()));
+  REQUIRE(run.last.world_from_camera->translation == result.world_from_camera->translation);
+}
+
+TEST_CASE("FusionPipeline: reset() forgets map, pose and state") {
+  Followed run;
+  run.process(250);
+  run.pipeline.reset();
+  REQUIRE(run.pipeline.volume().num_blocks() == 0);
+  REQUIRE(run.pipeline.state() == RecoveryState::kTracking);
+  REQUIRE(run.oracle.trained.empty());
+  run.process(0);
+  REQUIRE(run.last.state == RecoveryState::kTracking);
+  REQUIRE(run.last.world_from_camera->translation.norm() == 0.0F);
+}
+
+TEST_CASE("FusionSettings: defaults validate, and nested settings are checked") {
+  FusionSettings settings;
+  REQUIRE_NOTHROW(settings.validate());
+  settings.recovery.max_poor_frames = 0;
+  REQUIRE_THROWS_AS(settings.validate(), InvalidSettings);
+  REQUIRE_THROWS_AS(FusionPipeline(Context(), settings, nullptr), InvalidSettings);
+}
+
+}  // namespace
+}  // namespace foothold

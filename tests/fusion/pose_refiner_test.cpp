@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/fusion/pose_refiner.h"
+
+#include "foothold/base/error.h"
+#include "foothold/fusion/refining_relocaliser.h"
+#include "room_recording.h"
+#include "scene.h"
+#include "support/catch.h"
+#include "support/random_seed.h"
+
+namespace foothold {
+namespace {
+
+constexpr int kLastMapped = 60;
+constexpr int kMapStride = 4;
+constexpr int kSeen = 30;  ///< a frame between those in the map
+/// Alignment with a map of noisy depth and exact poses ends nearer than this; half a voxel.
+constexpr float kFineM = 0.005F;
+constexpr float kFineRad = 0.004F;
+
+const TsdfVolume& office_map() {
+  static const TsdfVolume volume = test::office().fused(Context(), 0, kLastMapped, kMapStride);
+  return volume;
+}
+
+PoseEstimate proposal(const SE3& world_from_camera) { return {world_from_camera, 0.5F}; }
+
+TEST_CASE("PoseRefiner: mends poses that are a hand's breadth off, and accepts them") {
+  PoseRefiner refiner(office_map().context());
+  Random random = test::test_random();
+  const RgbdFrame& frame = test::office().frame(kSeen + 1);
+  const SE3& truth = *frame.world_from_camera;
+  for (int i = 0; i < 8; ++i) {
+    const std::vector<PoseEstimate> proposals = {proposal(truth * test::random_motion(random, 0.05F, 0.05F))};
+    const std::vector<RefinedPose> refined = refiner.refine(frame.view(), office_map(), proposals);
+    REQUIRE(refined.size() == 1);
+    REQUIRE(refined.front().accepted);
+    REQUIRE(refined.front().probability >= refiner.acceptance_probability());
+    REQUIRE(refined.front().candidate == 0);
+    REQUIRE(translation_distance_m(refined.front().world_from_camera, truth) < kFineM);
+    REQUIRE(rotation_distance_rad(refined.front().world_from_camera, truth) < kFineRad);
+  }
+}
+
+TEST_CASE("PoseRefiner: finds the right candidate behind wrong ones, and refuses wrong ones alone") {
+  PoseRefiner refiner(office_map().context());
+  Random random = test::test_random();
+  const RgbdFrame& frame = test::office().frame(kSeen + 1);
+  const SE3& truth = *frame.world_from_camera;
+  std::vector<PoseEstimate> wrong;
+  for (int i = 0; i < 12; ++i) {
+    SE3 pose = truth * test::random_motion(random, 0.8F, 0.8F);
+    pose.translation += Eigen::Vector3f(i % 2 == 0 ? 0.5F : -0.5F, 0.0F, 0.0F);
+    wrong.push_back(proposal(pose));
+  }
+  for (const RefinedPose& refused : refiner.refine(frame.view(), office_map(), wrong)) {
+    // Alignment may still find the way home from a wrong start; what it does not find must not be accepted.
+    REQUIRE((!refused.accepted || translation_distance_m(refused.world_from_camera, truth) < kFineM));
+  }
+  std::vector<PoseEstimate> with_right = wrong;
+  with_right.push_back(proposal(truth * test::random_motion(random, 0.03F, 0.03F)));
+  const std::vector<RefinedPose> refined = refiner.refine(frame.view(), office_map(), with_right);
+  REQUIRE(refined.front().accepted);
+  REQUIRE(translation_distance_m(refined.front().world_from_camera, truth) < kFineM);
+  for (std::size_t i = 1; i < refined.size(); ++i) {
+    REQUIRE(refined[i].score <= refined[i - 1].score);
+    REQUIRE_FALSE(refined[i].accepted);
+  }
+}
+
+TEST_CASE("PoseRefiner: accepts nothing for a frame of another room, a covered lens or no depth") {
+  PoseRefiner refiner(office_map().context());
+  std::vector<PoseEstimate> proposals;
+  for (int i = 0; i < kLastMapped; i += 8) proposals.push_back(proposal(test::office().pose(i)));
+  test::RoomRecording elsewhere("synthetic:lounge?frames=40");
+  for (const int i : {0, 30}) {
+    for (const RefinedPose& refined : refiner.refine(elsewhere.frame(i).view(), office_map(), proposals)) REQUIRE_FALSE(refined.accepted);
+  }
+  RgbdFrame covered = test::office().frame(kSeen);
+  for (const float depth_m : {0.3F, 0.0F}) {
+    for (std::size_t i = 0; i < covered.depth.size(); ++i) covered.depth.data()[i] = depth_m;
+    for (const RefinedPose& refined : refiner.refine(covered.view(), office_map(), proposals)) REQUIRE_FALSE(refined.accepted);
+  }
+}
+
+TEST_CASE("PoseRefiner: accepts nothing where the map is empty, or without proposals") {
+  const TsdfVolume empty(Context(), {});
+  PoseRefiner refiner(empty.context());
+  const RgbdFrame& frame = test::office().frame(kSeen);
+  for (const RefinedPose& refined : refiner.refine(frame.view(), empty, std::vector<PoseEstimate>{proposal(*frame.world_from_camera)}))
+    REQUIRE_FALSE(refined.accepted);
+  REQUIRE(refiner.refine(frame.view(), office_map(), std::vector<PoseEstimate>{}).empty());
+}
+
+TEST_CASE("PoseRefiner: identical for any number of threads") {
+  std::vector<RefinedPose> one;
+  for (const int num_threads : {1, 2, 4}) {
+    ContextOptions options;
+    options.num_threads = num_threads;
+    const Context context(options);
+    const TsdfVolume volume = test::office().fused(context, 0, 40, 8);
+    PoseRefiner refiner(context);
+    const std::vector<PoseEstimate> proposals = {proposal(test::office().pose(10)), proposal(test::office().pose(35))};
+    const std::vector<RefinedPose> refined = refiner.refine(test::office().frame(20).view(), volume, proposals);
+    if (num_threads == 1) one = refined;
+    REQUIRE(refined.size() == one.size());
+    for (std::size_t i = 0; i < refined.size(); ++i) {
+      REQUIRE(refined[i].score == one[i].score);
+      REQUIRE(refined[i].world_from_camera.translation == one[i].world_from_camera.translation);
+    }
+  }
+}
+
+TEST_CASE("PoseRefinerSettings: defaults validate, and the fine divisor may not exceed the coarse one") {
+  PoseRefinerSettings settings;
+  REQUIRE_NOTHROW(settings.validate());
+  settings.fine_divisor = 2 * settings.coarse_divisor;
+  REQUIRE_THROWS_AS(settings.validate(), InvalidSettings);
+}
+
+/// Proposes what it is told to.
+class FakeRelocaliser final : public Relocaliser {
+ public:
+  void train(const Frame&, const SE3&) override { ++num_trained; }
+  std::vector<PoseEstimate> relocalise(const Frame&) override { return proposals; }
+  void update() override { ++num_updates; }
+  void reset() override { ++num_resets; }
+  std::size_t state_bytes() const override { return 123; }
+  float acceptance_threshold() const override { return 0.1F; }
+
+  std::vector<PoseEstimate> proposals;
+  int num_trained = 0;
+  int num_updates = 0;
+  int num_resets = 0;
+};
+
+TEST_CASE("RefiningRelocaliser: gives the one accepted pose or nothing, and leaves the rest to the wrapped one") {
+  FakeRelocaliser inner;
+  RefiningRelocaliser relocaliser(inner, office_map());
+  const RgbdFrame& frame = test::office().frame(kSeen + 1);
+  Random random = test::test_random();
+  inner.proposals = {proposal(test::office().pose(0)), proposal(*frame.world_from_camera * test::random_motion(random, 0.03F, 0.03F))};
+  const std::vector<PoseEstimate> found = relocaliser.relocalise(frame.view());
+  REQUIRE(found.size() == 1);
+  REQUIRE(found.front().confidence >= relocaliser.acceptance_threshold());
+  REQUIRE(translation_distance_m(found.front().world_from_camera, *frame.world_from_camera) < kFineM);
+  REQUIRE(relocaliser.last_refined().front().accepted);
+
+  inner.proposals.clear();
+  REQUIRE(relocaliser.relocalise(frame.view()).empty());
+  REQUIRE(relocaliser.last_refined().empty());
+
+  relocaliser.train(frame.view(), *frame.world_from_camera);
+  relocaliser.update();
+  relocaliser.reset();
+  REQUIRE(inner.num_trained == 1);
+  REQUIRE(inner.num_updates == 1);
+  REQUIRE(inner.num_resets == 1);
+  REQUIRE(relocaliser.state_bytes() == 123);
+}
+
+}  // namespace
+}  // namespace foothold
