@@ -4,8 +4,8 @@
 
 #include <memory>
 
-#include "common/progress_bar.h"
 #include "common/peak_memory.h"
+#include "common/progress_bar.h"
 
 namespace foothold::benchmark {
 namespace {

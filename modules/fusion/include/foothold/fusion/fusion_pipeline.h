@@ -22,8 +22,8 @@ struct FusionSettings {
   float max_motion_m = 0.2F;
   float max_motion_deg = 15.0F;
   /// A frame whose view the acceptance classifier gives less than this probability counts as poorly tracked at best. The classifier's
-  /// probabilities hold if right and wrong poses are equally frequent; tracked ones are nearly always right, so that much less than a half is
-  /// still good.
+  /// probabilities hold if right and wrong poses are equally frequent; tracked ones are nearly always right, so that much less than a half
+  /// is still good.
   float min_view_probability = 0.2F;
 
   template <class Visitor>

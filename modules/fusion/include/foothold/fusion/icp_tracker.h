@@ -43,7 +43,8 @@ struct IcpSettings {
     v(&IcpSettings::finest_level, "finest_level", "Level of the pyramid at which alignment ends (T: fusion_benchmark, kitchen).",
       Range{0, 6});
     v(&IcpSettings::coarsest_steps, "coarsest_steps", "Steps at the coarsest level (R).", Range{1, 100});
-    v(&IcpSettings::finest_steps, "finest_steps", "Steps at the finest level (T: fusion_benchmark, office with exact poses).", Range{1, 100});
+    v(&IcpSettings::finest_steps, "finest_steps", "Steps at the finest level (T: fusion_benchmark, office with exact poses).",
+      Range{1, 100});
     v(&IcpSettings::rotation_first, "rotation_first", "Solve for rotation alone at the coarsest level (T: fusion_benchmark, kitchen).");
     v(&IcpSettings::coarsest_outlier_m, "coarsest_outlier_m", "Outlier distance at the coarsest level [m] (T: fusion_benchmark, kitchen).",
       Range{1e-3, 1.0});
