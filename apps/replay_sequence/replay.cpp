@@ -1,0 +1,291 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "replay.h"
+
+#include <algorithm>
+#include <ctime>
+#include <limits>
+#include <numeric>
+
+#include "common/peak_memory.h"
+#include "common/progress_bar.h"
+#include "foothold/base/error.h"
+#include "foothold/fusion/surface_mesh.h"
+#include "foothold/io/sequence.h"
+#include "foothold/io/sequence_player.h"
+#include "outside_picture.h"
+#include "reconstruction.h"
+#include "replay_view.h"
+
+namespace foothold::replay {
+namespace {
+
+/// Size of the picture from outside [px].
+constexpr int kPictureWidth = 960;
+constexpr int kPictureHeight = 720;
+/// Colour of a covered lens.
+constexpr Rgb8 kDark = {4, 4, 4};
+
+double process_cpu_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+
+PlayedFrame played(const ReplayFrame& frame) {
+  const FusionFrameResult& result = frame.result;
+  const bool believed = result.world_from_camera.has_value() && result.quality == TrackingQuality::kGood;
+  return {result.world_from_camera, believed, result.fused, result.total_ms};
+}
+
+std::string describe(const Kidnap& kidnap) {
+  const std::string from = std::to_string(kidnap.from);
+  const std::string to = std::to_string(kidnap.to);
+  switch (kidnap.kind) {
+    case KidnapKind::kRemoved:
+      return "frames " + from + " to " + std::to_string(kidnap.to - 1) + " left out";
+    case KidnapKind::kTeleport:
+      return "jumped from frame " + from + " back to " + to;
+    case KidnapKind::kReturn:
+      return "jumped from frame " + from + " to " + to;
+    case KidnapKind::kBlackout:
+      return "the lens was covered from frame " + from + " to " + std::to_string(kidnap.to - 1);
+  }
+  return {};
+}
+
+Image<Rgb8> draw_outside(const TsdfVolume& volume, const ReplayRun& run) {
+  std::vector<SE3> trajectory;
+  for (const ReplayFrame& frame : run.frames) {
+    if (frame.result.world_from_camera.has_value()) trajectory.push_back(*frame.result.world_from_camera);
+  }
+  return picture_from_outside(volume, run.mesh, trajectory, kPictureWidth, kPictureHeight);
+}
+
+class Replayer {
+ public:
+  Replayer(const ReplayOptions& options, const ReplaySettings& settings)
+      : options_(options),
+        settings_(settings),
+        context_(apps::make_context(options.device)),
+        sequence_(open_sequence(options.sequence, apps::make_context(options.device))),
+        indices_(frame_indices(*sequence_, options.stride)),
+        view_(context_, options, static_cast<int>(indices_.size())) {
+    if (indices_.empty()) throw FileError(options.sequence + ": expected at least one frame");
+  }
+
+  ReplayResult run();
+
+ private:
+  int num_frames() const { return static_cast<int>(indices_.size()); }
+  bool stopped() const { return apps::interrupted() || view_.ended(); }
+  Reconstruction start() const;
+  std::unique_ptr<FrameSource> open(const std::vector<PlayStep>& steps) const;
+  ReplayFrame show(Reconstruction& reconstruction, RgbdFrame& frame, const PlayStep& step, const std::string& event);
+  /// Plays steps. `before` is called before each with the last frame and the position in the steps.
+  template <class Before>
+  ReplayRun play(const std::string& label, Reconstruction& reconstruction, const std::vector<PlayStep>& steps,
+                 const std::vector<Kidnap>& kidnaps, Before&& before);
+  ReplayRun play_undisturbed(const std::vector<Kidnap>& independent, std::vector<KidnapRecord>& records);
+  void play_kidnapped(const KidnapPlan& plan, ReplayResult& result);
+  KidnapRecord branch_off(const Reconstruction& reconstruction, const Kidnap& kidnap, const ReplayRun& so_far);
+  std::optional<double> mapped_fraction(Reconstruction& reconstruction, const ReplayFrame& last, const RgbdFrame& first) const;
+  void judge(ReplayResult& result) const;
+
+  const ReplayOptions& options_;
+  const ReplaySettings& settings_;
+  Context context_;
+  std::shared_ptr<const Sequence> sequence_;
+  std::vector<int> indices_;
+  ReplayView view_;
+};
+
+/// Decodes each frame when it is read, in the reader's thread.
+class UnhurriedPlayer : public FrameSource {
+ public:
+  UnhurriedPlayer(std::shared_ptr<const Sequence> sequence, std::vector<int> indices)
+      : sequence_(std::move(sequence)), indices_(std::move(indices)) {}
+  ReadStatus read(RgbdFrame& frame) override {
+    if (next_ == indices_.size()) return ReadStatus::kEnd;
+    frame = sequence_->load(indices_[next_++]);
+    return ReadStatus::kFrame;
+  }
+
+ private:
+  std::shared_ptr<const Sequence> sequence_;
+  std::vector<int> indices_;
+  std::size_t next_ = 0;
+};
+
+Reconstruction Replayer::start() const {
+  Reconstruction reconstruction(context_, options_, settings_);
+  const std::optional<SE3> first = sequence_->load(indices_.front()).world_from_camera;
+  if (first.has_value()) reconstruction.pipeline().start_at(*first);
+  return reconstruction;
+}
+
+std::unique_ptr<FrameSource> Replayer::open(const std::vector<PlayStep>& steps) const {
+  std::vector<int> indices;
+  indices.reserve(steps.size());
+  for (const PlayStep& step : steps) indices.push_back(indices_[static_cast<std::size_t>(step.frame)]);
+  if (options_.exclusive_timing) return std::make_unique<UnhurriedPlayer>(sequence_, std::move(indices));
+  return std::make_unique<SequencePlayer>(sequence_, std::move(indices));
+}
+
+ReplayFrame Replayer::show(Reconstruction& reconstruction, RgbdFrame& frame, const PlayStep& step, const std::string& event) {
+  if (step.covered) {
+    std::fill_n(frame.depth.data(), frame.depth.size(), 0.0F);
+    std::fill_n(frame.colour.data(), frame.colour.size(), kDark);
+  }
+  ReplayFrame result{step, frame.index, frame.timestamp_s, frame.world_from_camera, {}, std::numeric_limits<double>::quiet_NaN()};
+  const double cpu_before_ms = process_cpu_ms();
+  result.result = reconstruction.process(frame.view());
+  if (options_.exclusive_timing) result.cpu_ms = process_cpu_ms() - cpu_before_ms;
+  view_.add(frame, reconstruction.pipeline(), result.result, event);
+  return result;
+}
+
+template <class Before>
+ReplayRun Replayer::play(const std::string& label, Reconstruction& reconstruction, const std::vector<PlayStep>& steps,
+                         const std::vector<Kidnap>& kidnaps, Before&& before) {
+  ReplayRun run;
+  view_.start_again(label);
+  const std::unique_ptr<FrameSource> source = open(steps);
+  apps::ProgressBar progress(label, static_cast<std::int64_t>(steps.size()));
+  Stopwatch watch;
+  double elsewhere_ms = 0.0;
+  RgbdFrame frame;
+  for (const PlayStep& step : steps) {
+    const Stopwatch aside;
+    before(run, step);
+    elsewhere_ms += aside.elapsed_ms();
+    if (stopped() || source->read(frame) != ReadStatus::kFrame) break;
+    const bool is_first_covered = step.covered && (run.frames.empty() || !run.frames.back().step.covered);
+    const std::string event = step.kidnap >= 0   ? describe(kidnaps[static_cast<std::size_t>(step.kidnap)])
+                              : is_first_covered ? "the lens is covered"
+                                                 : "";
+    run.frames.push_back(show(reconstruction, frame, step, event));
+    progress.advance();
+  }
+  run.wall_s = (watch.elapsed_ms() - elsewhere_ms) / 1000.0;
+  run.mesh = extract_mesh(reconstruction.pipeline().volume());
+  if (!options_.picture_file.empty()) run.picture = draw_outside(reconstruction.pipeline().volume(), run);
+  run.map_bytes = reconstruction.pipeline().volume().state_bytes();
+  run.relocaliser_bytes = reconstruction.relocaliser_bytes();
+  return run;
+}
+
+std::optional<double> Replayer::mapped_fraction(Reconstruction& reconstruction, const ReplayFrame& last, const RgbdFrame& first) const {
+  if (!last.result.world_from_camera.has_value() || !last.world_from_camera_true.has_value() || !first.world_from_camera.has_value()) {
+    return std::nullopt;
+  }
+  const SE3 first_from_last = last.world_from_camera_true->inverse() * *first.world_from_camera;
+  return reconstruction.mapped_fraction(first.view(), *last.result.world_from_camera * first_from_last);
+}
+
+KidnapRecord Replayer::branch_off(const Reconstruction& reconstruction, const Kidnap& kidnap, const ReplayRun& so_far) {
+  KidnapRecord record;
+  record.kidnap = kidnap;
+  Reconstruction copy(reconstruction);
+  const std::vector<PlayStep> steps = independent_steps(kidnap, num_frames(), options_.kidnaps);
+  const std::unique_ptr<FrameSource> source = open(steps);
+  view_.begin_branch();
+  RgbdFrame frame;
+  for (const PlayStep& step : steps) {
+    if (stopped() || source->read(frame) != ReadStatus::kFrame) break;
+    if (step.kidnap >= 0) record.mapped = mapped_fraction(copy, so_far.frames.back(), frame);
+    const ReplayFrame shown = show(copy, frame, step, step.kidnap >= 0 ? describe(kidnap) : std::string());
+    if (!step.covered) record.frames.push_back(shown);
+  }
+  view_.end_branch();
+  return record;
+}
+
+ReplayRun Replayer::play_undisturbed(const std::vector<Kidnap>& independent, std::vector<KidnapRecord>& records) {
+  Reconstruction reconstruction = start();
+  std::size_t next = 0;
+  const auto branch_where_due = [&](const ReplayRun& so_far, const PlayStep& step) {
+    for (; next < independent.size() && independent[next].from == step.frame && !stopped(); ++next) {
+      records.push_back(branch_off(reconstruction, independent[next], so_far));
+    }
+  };
+  return play(independent.empty() ? "undisturbed" : "undisturbed, with kidnaps of copies", reconstruction,
+              plan_sequential_kidnaps(num_frames(), {}).steps, {}, branch_where_due);
+}
+
+void Replayer::play_kidnapped(const KidnapPlan& plan, ReplayResult& result) {
+  Reconstruction reconstruction = start();
+  for (const Kidnap& kidnap : plan.kidnaps) result.kidnaps.push_back({kidnap, {}, std::nullopt, {}});
+  const auto measure_view = [&](const ReplayRun& so_far, const PlayStep& step) {
+    if (step.kidnap < 0 || so_far.frames.empty()) return;
+    const auto last =
+        std::find_if(so_far.frames.rbegin(), so_far.frames.rend(), [](const ReplayFrame& frame) { return !frame.step.covered; });
+    const RgbdFrame first = sequence_->load(indices_[static_cast<std::size_t>(step.frame)]);
+    if (last != so_far.frames.rend()) {
+      result.kidnaps[static_cast<std::size_t>(step.kidnap)].mapped = mapped_fraction(reconstruction, *last, first);
+    }
+  };
+  result.kidnapped = play("kidnapped", reconstruction, plan.steps, plan.kidnaps, measure_view);
+  const std::vector<ReplayFrame>& frames = result.kidnapped->frames;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    if (frames[i].step.kidnap < 0) continue;
+    const std::size_t end = std::min(frames.size(), i + static_cast<std::size_t>(options_.kidnaps.num_judged));
+    result.kidnaps[static_cast<std::size_t>(frames[i].step.kidnap)].frames.assign(frames.begin() + static_cast<std::ptrdiff_t>(i),
+                                                                                  frames.begin() + static_cast<std::ptrdiff_t>(end));
+  }
+}
+
+/// Compares with the undisturbed run's poses of the same frames.
+void Replayer::judge(ReplayResult& result) const {
+  const auto outcome_of = [&](const std::vector<ReplayFrame>& frames) {
+    std::vector<PlayedFrame> seen;
+    std::vector<std::optional<SE3>> reference;
+    for (const ReplayFrame& frame : frames) {
+      const auto place = static_cast<std::size_t>(frame.step.frame);
+      const bool known = !frame.step.covered && place < result.undisturbed.frames.size();
+      seen.push_back(played(frame));
+      reference.push_back(known ? result.undisturbed.frames[place].result.world_from_camera : std::nullopt);
+    }
+    return judge_kidnap(seen, reference);
+  };
+  for (KidnapRecord& record : result.kidnaps) record.outcome = outcome_of(record.frames);
+  if (result.kidnapped.has_value()) result.whole_kidnapped = outcome_of(result.kidnapped->frames);
+}
+
+ReplayResult Replayer::run() {
+  ReplayResult result;
+  apps::restart_peak_memory();
+  const bool with_kidnaps = options_.kidnaps.num_kidnaps() > 0;
+  std::vector<Kidnap> independent;
+  KidnapPlan plan;  // made before anything runs, so that one that does not fit is refused at once
+  if (with_kidnaps && options_.independent) independent = plan_independent_kidnaps(num_frames(), options_.kidnaps);
+  if (with_kidnaps && !options_.independent) plan = plan_sequential_kidnaps(num_frames(), options_.kidnaps);
+  result.undisturbed = play_undisturbed(independent, result.kidnaps);
+  if (!plan.steps.empty() && !stopped()) {
+    play_kidnapped(plan, result);
+    result.mesh_distance = mesh_distance(result.kidnapped->mesh, result.undisturbed.mesh, settings_.fusion.volume.voxel_size_m,
+                                         std::max(0.05, static_cast<double>(settings_.fusion.volume.voxel_size_m)));
+  }
+  judge(result);
+  result.peak_mb = apps::peak_memory_mb();
+  result.complete = !stopped();
+  return result;
+}
+
+}  // namespace
+
+ReplayResult replay(const ReplayOptions& options, const ReplaySettings& settings) { return Replayer(options, settings).run(); }
+
+std::optional<RunError> run_error(const ReplayRun& run) {
+  std::vector<SE3> estimated;
+  std::vector<SE3> truth;
+  for (const ReplayFrame& frame : run.frames) {
+    if (!frame.result.world_from_camera.has_value() || !frame.world_from_camera_true.has_value()) continue;
+    estimated.push_back(*frame.result.world_from_camera);
+    truth.push_back(*frame.world_from_camera_true);
+  }
+  if (estimated.empty()) return std::nullopt;
+  RunError error;
+  error.num_frames = static_cast<int>(estimated.size());
+  error.raw = absolute_trajectory_error(estimated, truth, TrajectoryAlignment::kNone);
+  error.aligned = absolute_trajectory_error(estimated, truth, TrajectoryAlignment::kRigid);
+  return error;
+}
+
+}  // namespace foothold::replay

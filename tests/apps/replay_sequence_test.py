@@ -1,0 +1,161 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 The Foothold authors
+"""replay_sequence from the outside."""
+
+import json
+import os
+import shutil
+import signal
+import struct
+import subprocess
+import unittest
+
+import app_support
+
+ROOM = "synthetic:kitchen?frames=40&width=320&height=240"
+BLACKOUT = ("--blackout", 1, "--blackout-length", 5, "--judged", 8)
+
+
+def without_timing(value):
+    """What equal options must reproduce."""
+    if isinstance(value, dict):
+        return {k: without_timing(v) for k, v in value.items() if k not in ("timing", "threads", "peak_mb", "ms", "median_ms")}
+    return [without_timing(v) for v in value] if isinstance(value, list) else value
+
+
+class ReplayTest(app_support.AppTest):
+    def replay(self, *arguments, sequence=ROOM):
+        self.check_success(sequence, *arguments, "--json", "result.json")
+        return json.loads((self.folder / "result.json").read_text())
+
+    def check_png(self, path):
+        data = path.read_bytes()
+        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertEqual(struct.unpack(">II", data[16:24]), (1280, 720))
+
+
+class UndisturbedTest(ReplayTest):
+    def test_tracks_and_writes_what_was_asked_for(self):
+        result = self.replay("--save-trajectory", "trajectory.txt", "--save-mesh", "mesh.ply")
+        self.assertEqual((result["format"], result["format_version"], result["complete"]), ("foothold-replay", 1, True))
+        run = result["undisturbed"]
+        self.assertEqual((run["frames"], run["lost"], run["ate_frames"]), (40, 0, 40))
+        self.assertLess(run["ate"]["rmse_m"], 0.02)
+        self.assertLessEqual(run["ate_aligned"]["rmse_m"], run["ate"]["rmse_m"] + 1e-6)
+        self.assertEqual(result["kidnaps"], [])
+        lines = [line for line in (self.folder / "trajectory.txt").read_text().splitlines() if not line.startswith("#")]
+        self.assertEqual(len(lines), 40)
+        self.assertEqual({len(line.split()) for line in lines}, {8})
+        mesh = (self.folder / "mesh.ply").read_bytes()
+        self.assertTrue(mesh.startswith(b"ply\nformat binary_little_endian"))
+        self.assertIn(f"element vertex {run['vertices']}\n".encode(), mesh[:400])
+        self.assertGreater(run["vertices"], 10000)
+
+    def test_settings_reach_the_pipeline(self):
+        (self.folder / "settings.json").write_text('{"fusion": {"volume": {"max_depth_m": 4}}}')
+        result = self.replay("--voxel", 0.02, "--settings", "settings.json", "--set", "fusion.icp.max_depth_m=4", "--method", "none", "--stride", 2)
+        volume = result["settings"]["fusion"]["volume"]
+        self.assertAlmostEqual(volume["voxel_size_m"], 0.02, places=6)
+        self.assertAlmostEqual(volume["truncation_m"], 0.08, places=6)
+        self.assertEqual(volume["max_depth_m"], 4)
+        self.assertEqual(result["settings"]["fusion"]["icp"]["max_depth_m"], 4)
+        self.assertEqual(result["undisturbed"]["frames"], 20)
+        self.assertEqual(result["undisturbed"]["relocaliser_mb"], 0)
+
+    def test_a_recording_without_true_poses_starts_at_the_identity(self):
+        app_support.write_seven_scenes(self.folder / "recording", 4)
+        for pose in (self.folder / "recording").glob("*.pose.txt"):
+            pose.unlink()
+        result = self.replay("--save-trajectory", "trajectory.txt", sequence="recording")
+        self.assertNotIn("ate", result["undisturbed"])
+        first = (self.folder / "trajectory.txt").read_text().splitlines()
+        first = [line for line in first if not line.startswith("#")][0].split()
+        self.assertEqual([float(word) for word in first[1:]], [0, 0, 0, 0, 0, 0, 1])
+
+
+class KidnapTest(ReplayTest):
+    def test_recovers_from_a_covered_lens(self):
+        result = self.replay(*BLACKOUT, "--video", "video", "--video-every", 20)
+        self.assertEqual(result["summary"]["blackout"]["recovered"], 1)
+        self.assertEqual(result["summary"]["blackout"]["wrong_poses_fused"], 0)
+        self.assertGreaterEqual(result["kidnapped"]["lost"], 5)
+        self.assertEqual(result["kidnaps"][0]["covered"], 5)
+        self.assertGreater(result["kidnaps"][0]["mapped"], 0.5)
+        surface = result["surface_from_undisturbed"]
+        self.assertGreater(surface["within_a_voxel"], 0.95 * surface["vertices"])
+        pictures = sorted((self.folder / "video").iterdir())
+        self.assertEqual([p.name for p in pictures], [f"view-{i:06d}.png" for i in range(0, 80, 20)])
+        for picture in pictures:
+            self.check_png(picture)
+
+    def test_independent_kidnaps_are_the_same_on_any_number_of_threads(self):
+        arguments = ["--independent", "--kidnap", 1, "--kidnap-length", 6, "--teleport", 2, *BLACKOUT, "--seed", 7]
+        runs = [without_timing(self.replay(*arguments, "--threads", n)) for n in (1, 2)]
+        self.assertEqual(runs[0], runs[1])
+        self.assertEqual(sorted(k["kind"] for k in runs[0]["kidnaps"]), ["blackout", "removed", "teleport", "teleport"])
+        self.assertEqual(runs[0]["undisturbed"], without_timing(self.replay("--seed", 7))["undisturbed"])
+
+    def test_ferns_stand_in_for_the_forest(self):
+        result = self.replay("--method", "ferns", *BLACKOUT)
+        self.assertEqual(result["method"], "ferns")
+        self.assertEqual(len(result["kidnaps"]), 1)
+
+
+class ShowTest(ReplayTest):
+    @unittest.skipUnless(shutil.which("xvfb-run"), "xvfb-run is not installed")
+    def test_shows_a_window(self):
+        result = subprocess.run(["xvfb-run", "-a", self.app, ROOM + "@0:6", "--show"], cwd=self.folder, capture_output=True, text=True, check=False)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_says_so_without_a_display(self):
+        for name in ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM"):
+            value = os.environ.pop(name, None)
+            if value is not None:
+                self.addCleanup(os.environ.__setitem__, name, value)
+        self.check_refused(ROOM, "--show", says=["--show", "DISPLAY", "--video"])
+
+
+class InterruptTest(ReplayTest):
+    def test_what_there_is_is_saved(self):
+        process = subprocess.Popen([self.app, "synthetic:kitchen?frames=100000&width=160&height=120", "--video", "video", "--json", "result.json",
+                                    "--save-trajectory", "trajectory.txt"], cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        while not (self.folder / "video" / "view-000003.png").exists():
+            self.assertIsNone(process.poll(), "the app ended by itself")
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(), 130)
+        result = json.loads((self.folder / "result.json").read_text())
+        self.assertFalse(result["complete"])
+        self.assertGreaterEqual(result["undisturbed"]["frames"], 3)
+        self.assertTrue((self.folder / "trajectory.txt").exists())
+
+
+class BadInputTest(ReplayTest):
+    def test_wrong_arguments(self):
+        self.check_refused(says="sequence")
+        self.check_refused("missing", says="missing")
+        self.check_refused("synthetic:castle", says=["castle", "kitchen"])
+        self.check_refused(ROOM, "--method", "magic", says=["magic", "forest", "ferns", "none"])
+        self.check_refused(ROOM, "--forest", "missing.forest", says="missing.forest")
+        self.check_refused(ROOM, "--device", "tpu", says="tpu")
+        self.check_refused(ROOM, "--voxel", 1, says="--voxel")
+        self.check_refused(ROOM, "--kidnap", -1, says="--kidnap")
+        self.check_refused(ROOM, "--kidnap-length", 0, says="--kidnap-length")
+        self.check_refused(ROOM, "--video-every", 0, says="--video-every")
+        self.check_refused(ROOM, "--set", "fusion.volume.voxel_size=1", says=["voxel_size", "did you mean"])
+        self.check_refused(ROOM, "--set", "fusion.volume", says="path=value")
+        self.check_refused(ROOM, "--set", "fusion.volume.voxel_size_m=7", says=["voxel_size_m", "[0.001, 0.1]"])
+        self.check_refused(ROOM, "--settings", "missing.json", says="missing.json")
+
+    def test_kidnaps_that_do_not_fit(self):
+        self.check_refused(ROOM, "--kidnap", 3, says=["3 kidnaps", "40 frames"])
+        self.check_refused(ROOM, "--kidnap", 1, "--independent", says=["removed", "40 frames"])
+
+    def test_wrong_outputs_are_refused_before_the_run(self):
+        for option in ["--json", "--save-mesh", "--save-trajectory", "--video"]:
+            self.check_refused(ROOM, option, "nowhere/name", says="nowhere")
+        (self.folder / "file").write_text("")
+        self.check_refused(ROOM, "--video", "file", says=["--video", "file"])
+
+
+if __name__ == "__main__":
+    app_support.main()
