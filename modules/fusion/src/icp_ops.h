@@ -49,6 +49,8 @@ struct IcpState {
   int converged;  ///< nonzero: the level is done
 };
 
+static_assert(sizeof(IcpState) == 352, "copied from the device");
+
 struct IcpTracker::Scratch {
   explicit Scratch(MemoryKind memory) : state(memory, 1), chunk_sums(memory) {}
 

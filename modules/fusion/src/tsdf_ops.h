@@ -49,6 +49,9 @@ struct TsdfTables {
   std::uint8_t* surface_octants = nullptr;
 };
 
+static_assert(sizeof(PosedDepth) == 96 && sizeof(PosedColour) == 88 && sizeof(TsdfView) == 56,
+              "made by the host's compiler, read by nvcc's code");
+
 template <Device kDevice>
 struct TsdfOps {
   using Scratch = TsdfVolume::Scratch;

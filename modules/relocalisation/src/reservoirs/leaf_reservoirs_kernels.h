@@ -66,6 +66,8 @@ struct SampleTrainingPixel {
   }
 };
 
+static_assert(sizeof(Frame) == 144 && sizeof(SampleTrainingPixel) == 256, "made by the host's compiler, read by nvcc's code");
+
 inline constexpr int kLeafShift = 32;  ///< sort keys hold the leaf above, the example below
 
 struct MakeLeafKey {

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The emulated device itself: that it notices what would go wrong on a real one.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "foothold/base/array.h"
+#include "gpu/device.h"
+#include "support/catch.h"
+#include "support/emulated_cuda/emulated_cuda_executor.h"
+
+namespace foothold {
+namespace {
+
+/// True if a process that does this dies of it.
+template <class Deed>
+bool is_deadly(const Deed& deed) {
+  std::fflush(nullptr);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (std::freopen("/dev/null", "w", stderr) == nullptr) std::_Exit(0);
+    for (const int signal : {SIGSEGV, SIGABRT}) std::signal(signal, SIG_DFL);
+    deed();
+    std::_Exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+}
+
+struct NoScratch {};
+
+TEST_CASE("emulated CUDA: the host dies of device memory, kernels do not") {
+  const Context context = test::context_on(Device::kCuda);
+  Array<int> array(MemoryKind::kCuda, 100);
+  int* const data = array.data();
+  REQUIRE(is_deadly([&] { data[3] = 1; }));
+  REQUIRE_FALSE(is_deadly([&] {
+    CudaExecutor(context).for_each(100, [data](std::size_t i) { data[i] = 1; });
+    context.synchronise();
+  }));
+}
+
+TEST_CASE("emulated CUDA: a kernel that writes past the end of device memory dies") {
+  const Context context = test::context_on(Device::kCuda);
+  Array<int> array(MemoryKind::kCuda, 64);
+  int* const data = array.data();
+  REQUIRE(is_deadly([&] {
+    CudaExecutor(context).for_each(1, [data](std::size_t) { data[64] = 1; });
+    context.synchronise();
+  }));
+}
+
+TEST_CASE("emulated CUDA: kernels run no sooner than the host waits") {
+  const Context context = test::context_on(Device::kCuda);
+  int runs = 0;
+  CudaExecutor(context).for_each(2, [&runs](std::size_t) { ++runs; });
+  REQUIRE(runs == 0);
+  context.synchronise();
+  REQUIRE(runs == 2);
+}
+
+TEST_CASE("emulated CUDA: lanes of one team that come to different barriers die") {
+  const Context context = test::context_on(Device::kCuda);
+  REQUIRE(is_deadly([&] {
+    CudaExecutor(context).for_each_team<NoScratch>(1, [](const CudaTeam& team, NoScratch&, std::size_t) {
+      if (team.lane() == 0) team.sync();
+    });
+    context.synchronise();
+  }));
+}
+
+}  // namespace
+}  // namespace foothold
