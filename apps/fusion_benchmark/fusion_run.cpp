@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/peak_memory.h"
+#include "foothold/api/frame_uploader.h"
 
 namespace foothold::apps {
 
@@ -38,13 +39,14 @@ FusionRun run_fusion(const Context& context, Trace& trace, const Sequence& seque
                      const std::function<bool(int)>& progress) {
   restart_peak_memory();
   FusionPipeline pipeline(context, settings, nullptr);
+  FrameUploader uploader(context);
   FusionRun run;
   for (int i = 0; i < sequence.num_frames(); i += stride) {
     const RgbdFrame frame = sequence.load(i);
     if (i == 0 && frame.world_from_camera) pipeline.start_at(*frame.world_from_camera);
     trace.clear();
     const double before_ms = process_cpu_ms();
-    const FusionFrameResult result = pipeline.process(frame.view());
+    const FusionFrameResult result = pipeline.process(uploader.upload(frame.view()));
     run.cpu_ms.push_back(process_cpu_ms() - before_ms);
     for (const auto& [stage, durations_ms] : trace.stages()) {
       run.stages_ms[stage].push_back(std::accumulate(durations_ms.begin(), durations_ms.end(), 0.0));

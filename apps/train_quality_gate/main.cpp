@@ -221,6 +221,7 @@ bool gather(const Options& options, const GateSettings& settings, std::vector<Ta
                           ", expected two or more recordings for cross-validation, or --examples");
   }
   const Context context = make_context(options.device);
+  if (context.memory() != MemoryKind::kHost) throw InvalidSettings("--device: got cuda, expected cpu: examples are gathered on the host");
   QualityExamples examples = collect(context, options.sequences, options.views, settings);
   QualityExamples unseen = collect(context, options.test_sequences, options.test_views, settings);
   tasks[0].examples = std::move(examples.tracking);

@@ -18,9 +18,7 @@
 #include "foothold/api/raw_sequence.h"
 #include "foothold/base/error.h"
 #include "foothold/base/trace.h"
-#include "foothold/fusion/icp_tracker.h"
-#include "foothold/fusion/raycaster.h"
-#include "foothold/fusion/tsdf_volume.h"
+#include "foothold/fusion/fusion_pipeline.h"
 #include "foothold/relocalisation/forest_relocaliser.h"
 #include "foothold/synthetic/synthetic_sequence.h"
 
@@ -136,10 +134,7 @@ class Rig {
       : context_(context_of(options, trace)),
         uploader_(context_),
         relocaliser_(context_, make_random_forest({}), ForestRelocaliserSettings::preset(options.preset)),
-        volume_(context_, {}),
-        raycaster_(context_),
-        tracker_(context_),
-        map_(context_.memory()) {}
+        pipeline_(context_, {}, nullptr) {}
 
   /// Calls `timed(name, call)` for each whole call that a frame brings.
   template <class Timed>
@@ -148,13 +143,15 @@ class Rig {
     timed("upload of a frame", [&] { frame = uploader_.upload(recorded.view()); });
     timed("whole relocalisation", [&] { num_estimates_ += static_cast<long>(relocaliser_.relocalise(frame).size()); });
     timed("whole training frame", [&] { relocaliser_.train(frame, *recorded.world_from_camera); });
-    timed("whole fused frame: track, integrate, render", [&] { fuse(frame, *recorded.world_from_camera); });
+    if (num_frames_++ == 0) pipeline_.start_at(*recorded.world_from_camera);
+    timed("whole fused frame: track, judge, integrate, render", [&] { num_fused_ += pipeline_.process(frame).fused ? 1 : 0; });
   }
 
   const Context& context() const { return context_; }
   long num_estimates() const { return num_estimates_; }
   std::size_t relocaliser_bytes() const { return relocaliser_.state_bytes(); }
-  int num_blocks() const { return volume_.num_blocks(); }
+  int num_blocks() const { return pipeline_.volume().num_blocks(); }
+  long num_fused() const { return num_fused_; }
 
  private:
   static Context context_of(const Options& options, Trace* trace) {
@@ -165,22 +162,12 @@ class Rig {
     return Context(result);
   }
 
-  /// Fuses at the true pose, so that every device does the same work; the tracked pose is thrown away.
-  void fuse(const Frame& frame, const SE3& world_from_camera) {
-    tracker_.set_frame(frame);
-    if (!map_.empty()) tracker_.track(map_, map_.camera.world_from_camera);
-    volume_.integrate(frame, world_from_camera);
-    const RenderCamera camera{frame.calibration.depth, frame.depth.width, frame.depth.height, world_from_camera};
-    raycaster_.render(volume_, camera.reduced(2), map_, true);
-  }
-
   Context context_;
   FrameUploader uploader_;
   ForestRelocaliser relocaliser_;
-  TsdfVolume volume_;
-  Raycaster raycaster_;
-  IcpTracker tracker_;
-  SurfaceMap map_;
+  FusionPipeline pipeline_;
+  long num_frames_ = 0;
+  long num_fused_ = 0;
   long num_estimates_ = 0;
 };
 
@@ -199,8 +186,8 @@ void time_whole_calls(const Options& options, const std::vector<RgbdFrame>& fram
     });
   }
   table.print("whole calls");
-  std::printf("\nPoses proposed: %ld. The scene takes %.1f MB, the map has %d blocks.\n", rig.num_estimates(),
-              static_cast<double>(rig.relocaliser_bytes()) / 1e6, rig.num_blocks());
+  std::printf("\nPoses proposed: %ld; frames fused: %ld of %zu. The scene takes %.1f MB, the map has %d blocks.\n", rig.num_estimates(),
+              rig.num_fused(), frames.size(), static_cast<double>(rig.relocaliser_bytes()) / 1e6, rig.num_blocks());
 }
 
 void time_stages(const Options& options, const std::vector<RgbdFrame>& frames) {

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "foothold/api/frame_uploader.h"
+#include "foothold/fusion/fusion_pipeline.h"
 #include "foothold/fusion/icp_tracker.h"
 #include "foothold/fusion/raycaster.h"
 #include "foothold/fusion/tsdf_volume.h"
+#include "foothold/fusion/view_check.h"
 #include "fusion/scene.h"
 #include "gpu/device.h"
 #include "support/catch.h"
@@ -143,6 +145,64 @@ TEST_CASE("CUDA: tracking gives the CPU's poses and measures") {
     REQUIRE(std::abs(actual.measures.inlier_fraction - expected.measures.inlier_fraction) < 0.01F);
     REQUIRE(std::abs(actual.measures.log_det_total - expected.measures.log_det_total) < 0.05F);
   }
+}
+
+TEST_CASE("CUDA: the view check finds the CPU's agreement") {
+  const RgbdFrame frame = test::render(test::Scene{}, test::pose_on_arc(0.45F), 160, 120);
+  std::vector<ViewAgreement> agreements;
+  for (const Device device : {Device::kCpu, Device::kCuda}) {
+    const Context context = test::context_on(device);
+    const TsdfVolume map = map_on(context, 3);
+    SurfaceMap view(context.memory());
+    Raycaster(context).render(map, test::camera_of(frame).reduced(2), view, true);
+    FrameUploader uploader(context);
+    ViewCheck check(context);
+    check.set_frame(uploader.upload(frame.view()));
+    agreements.push_back(check.compare(view, *frame.world_from_camera));
+  }
+  constexpr float kTolerance = 2e-3F;  // a pixel or two of a thousand
+  REQUIRE(agreements[0].overlap > 0.5F);
+  REQUIRE(std::abs(agreements[1].overlap - agreements[0].overlap) < kTolerance);
+  REQUIRE(std::abs(agreements[1].agreement - agreements[0].agreement) < kTolerance);
+  REQUIRE(std::abs(agreements[1].in_front - agreements[0].in_front) < kTolerance);
+  REQUIRE(std::abs(agreements[1].behind - agreements[0].behind) < kTolerance);
+  REQUIRE(std::abs(agreements[1].difference - agreements[0].difference) < kTolerance);
+  REQUIRE(std::abs(agreements[1].colour_correlation - agreements[0].colour_correlation) < kTolerance);
+}
+
+TEST_CASE("CUDA: the pipeline tracks, judges and fuses as the CPU's does") {
+  FusionSettings settings;
+  settings.volume = coarse();
+  settings.render_divisor = 1;
+  settings.icp.coarsest_level = 2;
+  settings.icp.finest_level = 0;
+  std::vector<std::vector<FusionFrameResult>> results(2);
+  std::vector<int> num_blocks;
+  for (const Device device : {Device::kCpu, Device::kCuda}) {
+    const Context context = test::context_on(device);
+    FrameUploader uploader(context);
+    FusionPipeline pipeline(context, settings, nullptr);
+    pipeline.start_at(test::pose_on_arc(0.3F));
+    for (int i = 0; i < 4; ++i) {
+      const RgbdFrame frame = test::render(test::Scene{}, test::pose_on_arc(0.3F + 0.02F * static_cast<float>(i)), 160, 120);
+      results[device == Device::kCpu ? 0 : 1].push_back(pipeline.process(uploader.upload(frame.view())));
+    }
+    num_blocks.push_back(pipeline.volume().num_blocks());
+  }
+  for (std::size_t i = 0; i < 4; ++i) {
+    INFO("frame " << i);
+    const FusionFrameResult& expected = results[0][i];
+    const FusionFrameResult& actual = results[1][i];
+    REQUIRE(actual.state == expected.state);
+    REQUIRE(actual.quality == expected.quality);
+    REQUIRE(actual.fused == expected.fused);
+    REQUIRE(actual.world_from_camera.has_value() == expected.world_from_camera.has_value());
+    if (!expected.world_from_camera) continue;
+    REQUIRE(translation_distance_m(*actual.world_from_camera, *expected.world_from_camera) < kPoseTolerance_m);
+    REQUIRE(rotation_distance_rad(*actual.world_from_camera, *expected.world_from_camera) < kPoseTolerance_rad);
+  }
+  REQUIRE(results[0][3].world_from_camera.has_value());
+  REQUIRE(std::abs(num_blocks[1] - num_blocks[0]) <= num_blocks[0] / 50);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace foothold {
 /// Several lanes, each a thread.
 class CudaTeam {
  public:
-  static constexpr int kSize = 8;
+  static constexpr int kSize = 5;
 
   /// What the lanes of a team share.
   struct Shared {
