@@ -3,12 +3,11 @@
 /// A fusion pipeline with its relocaliser: what replay_sequence plays frames to.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
 
-#include "foothold/base/array.h"
+#include "foothold/api/frame_uploader.h"
 #include "foothold/fusion/fusion_pipeline.h"
 #include "options.h"
 
@@ -32,17 +31,13 @@ class Reconstruction {
   double mapped_fraction(const Frame& frame_host, const SE3& world_from_camera);
 
  private:
-  /// The frame in the context's memory, valid until the next call.
-  Frame upload(const Frame& frame_host);
-
   using Copy = std::function<std::unique_ptr<Relocaliser>(const Relocaliser&)>;
 
   Context context_;
   std::unique_ptr<Relocaliser> relocaliser_;
   Copy copy_relocaliser_;
   std::unique_ptr<FusionPipeline> pipeline_;
-  Array<float> depth_;
-  Array<std::uint8_t> colour_;
+  FrameUploader uploader_;
 };
 
 }  // namespace foothold::replay
