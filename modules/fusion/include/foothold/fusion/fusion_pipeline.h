@@ -70,7 +70,7 @@ struct FusionFrameResult {
 /// candidate, too: a camera that was covered for a moment is found again even without a relocaliser.
 ///
 /// Copies are independent but for the relocaliser, which is the caller's.
-class FusionPipeline {
+class FusionPipeline : public Persistent {
  public:
   /// @param relocaliser  Trained on good frames and asked when lost; nullptr for tracking alone. Must outlive the pipeline. Its proposals
   /// are
@@ -79,7 +79,7 @@ class FusionPipeline {
   FusionPipeline(const Context& context, const FusionSettings& settings, Relocaliser* relocaliser);
   /// Copies the map, the pose and the state of recovery, to go on with another relocaliser.
   FusionPipeline(const FusionPipeline& other, Relocaliser* relocaliser);
-  ~FusionPipeline();
+  ~FusionPipeline() override;
   FusionPipeline(FusionPipeline&&) noexcept;
   FusionPipeline& operator=(FusionPipeline&&) noexcept;
 
@@ -95,6 +95,12 @@ class FusionPipeline {
 
   /// Forgets map, pose and state, and resets the relocaliser.
   void reset();
+
+  /// Writes map and pose; the relocaliser is saved by its owner. @throws FileError if writing fails.
+  void save(std::ostream& stream) const override;
+  /// Goes on with a saved map. The camera counts as lost until the relocaliser, with what it had learnt, finds it in that map. On failure
+  /// nothing changes. @throws FileError for a damaged stream, another version, or a map made with other settings of the volume.
+  void load(std::istream& stream) override;
 
   const TsdfVolume& volume() const { return volume_; }
   /// The rendering that the next frame is tracked against, with colour; empty before the first frame.

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Reconstructions that are saved and go on in another process.
+#include <sstream>
+#include <string>
+
+#include "foothold/fusion/fusion_pipeline.h"
+#include "scene.h"
+#include "support/catch.h"
+#include "support/random_seed.h"
+
+namespace foothold {
+namespace {
+
+using Catch::Matchers::Contains;
+using test::Scene;
+
+/// Knows the pose of every frame, shifted a little, as a relocaliser that has seen the scene would.
+class KnowingRelocaliser : public Relocaliser {
+ public:
+  explicit KnowingRelocaliser(const SE3& world_from_camera) : proposal_(world_from_camera) {
+    proposal_.translation += Eigen::Vector3f(0.02F, -0.01F, 0.01F);
+  }
+  void train(const Frame&, const SE3&) override { ++num_trained; }
+  std::vector<PoseEstimate> relocalise(const Frame&) override { return {{proposal_, 0.9F}}; }
+  void update() override {}
+  void reset() override {}
+  std::size_t state_bytes() const override { return 0; }
+  float acceptance_threshold() const override { return 0.5F; }
+
+  int num_trained = 0;
+
+ private:
+  SE3 proposal_;
+};
+
+FusionSettings coarse_settings() {
+  FusionSettings settings;
+  settings.volume.voxel_size_m = 0.02F;
+  settings.volume.truncation_m = 0.08F;
+  return settings;
+}
+
+/// A pipeline that has seen the scene from along the arc.
+FusionPipeline arc_pipeline(const Context& context, const FusionSettings& settings, int num_frames = 5) {
+  FusionPipeline pipeline(context, settings, nullptr);
+  pipeline.start_at(test::pose_on_arc(0.0F));
+  for (int i = 0; i < num_frames; ++i) {
+    const RgbdFrame frame = test::render(Scene{}, test::pose_on_arc(0.02F * static_cast<float>(i)));
+    REQUIRE(pipeline.process(frame.view()).world_from_camera.has_value());
+  }
+  return pipeline;
+}
+
+std::string bytes_of(const FusionPipeline& pipeline) {
+  std::ostringstream stream;
+  pipeline.save(stream);
+  return stream.str();
+}
+
+std::string refusal(FusionPipeline& pipeline, const std::string& bytes) {
+  std::istringstream stream(bytes);
+  try {
+    pipeline.load(stream);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "(accepted)";
+}
+
+TEST_CASE("FusionPipeline: a loaded reconstruction is lost, and goes on once the relocaliser finds the camera") {
+  const Context context;
+  const std::string saved = bytes_of(arc_pipeline(context, coarse_settings()));
+  const SE3 place = test::pose_on_arc(0.1F);
+  KnowingRelocaliser relocaliser(place);
+  FusionPipeline loaded(context, coarse_settings(), &relocaliser);
+  std::istringstream stream(saved);
+  loaded.load(stream);
+  CHECK(loaded.state() == RecoveryState::kLost);
+  CHECK(bytes_of(loaded) == saved);
+
+  const RgbdFrame frame = test::render(Scene{}, place);
+  FusionFrameResult result = loaded.process(frame.view());
+  REQUIRE(result.relocalised);
+  REQUIRE(result.world_from_camera.has_value());
+  constexpr float kVoxel_m = 0.02F;
+  CHECK(translation_distance_m(*result.world_from_camera, place) < kVoxel_m);
+  for (int i = 0; i < 30 && result.state != RecoveryState::kTracking; ++i) result = loaded.process(frame.view());
+  CHECK(result.state == RecoveryState::kTracking);
+  CHECK(relocaliser.num_trained > 0);
+}
+
+TEST_CASE("FusionPipeline: a reconstruction without frames is loaded as such") {
+  const Context context;
+  FusionPipeline empty(context, coarse_settings(), nullptr);
+  FusionPipeline pipeline = arc_pipeline(context, coarse_settings());
+  REQUIRE(refusal(pipeline, bytes_of(empty)) == "(accepted)");
+  CHECK(pipeline.state() == RecoveryState::kTracking);
+  CHECK(pipeline.volume().num_blocks() == 0);
+  const RgbdFrame frame = test::render(Scene{}, test::pose_on_arc(0.0F));
+  CHECK(pipeline.process(frame.view()).fused);
+}
+
+TEST_CASE("FusionPipeline: a map made with other settings is refused with the setting's name and both values") {
+  const Context context;
+  FusionSettings other = coarse_settings();
+  other.volume.voxel_size_m = 0.025F;
+  const std::string saved = bytes_of(arc_pipeline(context, other, 1));
+  FusionPipeline pipeline = arc_pipeline(context, coarse_settings(), 1);
+  const std::string before = bytes_of(pipeline);
+  CHECK_THAT(refusal(pipeline, saved), Contains("voxel_size_m = 0.025, expected 0.02"));
+  CHECK(bytes_of(pipeline) == before);
+  CHECK(pipeline.state() == RecoveryState::kTracking);
+}
+
+TEST_CASE("FusionPipeline: damaged reconstructions are refused and the former one stays") {
+  const Context context;
+  FusionPipeline pipeline = arc_pipeline(context, coarse_settings(), 2);
+  const std::string before = bytes_of(pipeline);
+  const std::string good = bytes_of(arc_pipeline(context, coarse_settings(), 1));
+  const auto check_refused = [&](const std::string& bytes) {
+    CHECK(refusal(pipeline, bytes) != "(accepted)");
+    REQUIRE(bytes_of(pipeline) == before);
+  };
+  check_refused("");
+  CHECK_THAT(refusal(pipeline, std::string(200, 'x')), Contains("unknown first bytes"));
+  std::string other_version = good;
+  other_version[8] = 2;
+  CHECK_THAT(refusal(pipeline, other_version), Contains("got version 2, expected 1"));
+  Random random = test::test_random();
+  for (std::size_t place = 0; place < 72; ++place) {  // the head and its checksum
+    std::string bad = good;
+    bad[place] = static_cast<char>(bad[place] ^ static_cast<char>(1U << random.below(8)));
+    check_refused(bad);
+  }
+  for (int i = 0; i < 10; ++i) check_refused(good.substr(0, random.below(static_cast<std::uint32_t>(good.size()))));
+}
+
+}  // namespace
+}  // namespace foothold
