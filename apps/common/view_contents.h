@@ -12,7 +12,7 @@
 namespace foothold::apps {
 
 /// How the reconstruction stands, each with a colour of its own.
-enum class ViewState { kWaiting, kTracking, kSettling, kLost, kPaused };
+enum class ViewState { kWaiting, kTracking, kSettling, kLost, kPaused, kRecording };
 
 /// A stage of the work on a frame.
 struct ViewTiming {

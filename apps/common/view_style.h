@@ -33,6 +33,7 @@ constexpr Rgb8 colour_of(ViewState state) {
     case ViewState::kSettling:
       return kAmber;
     case ViewState::kLost:
+    case ViewState::kRecording:
       return kRed;
     case ViewState::kWaiting:
     case ViewState::kPaused:
@@ -53,6 +54,8 @@ constexpr const char* name_of(ViewState state) {
       return "LOST";
     case ViewState::kPaused:
       return "PAUSED";
+    case ViewState::kRecording:
+      return "RECORDING";
   }
   return "";
 }

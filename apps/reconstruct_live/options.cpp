@@ -2,10 +2,12 @@
 // Copyright (c) 2026 The Foothold authors
 #include "options.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <set>
 
 #include "foothold/base/error.h"
+#include "foothold/io/atomic_file.h"
 #include "foothold/io/calibration.h"
 #include "foothold/io/settings_file.h"
 
@@ -36,6 +38,11 @@ std::string mode_list(const std::vector<OpenNIVideoMode>& modes) {
 
 }  // namespace
 
+void LiveSettings::validate() const {
+  camera.validate();
+  SessionSettings::validate();
+}
+
 void add_live_options(CLI::App& app, LiveOptions& options) {
   app.add_flag("--list-devices", options.list_devices, "List the cameras and their modes, and end");
   app.add_option("--camera", options.camera, "The camera: an index or a URI of --list-devices, or an .oni file; otherwise the first");
@@ -43,12 +50,36 @@ void add_live_options(CLI::App& app, LiveOptions& options) {
   app.add_option("--calibration", options.calibration_folder,
                  "Folder with camera-intrinsics.txt and the like (docs/sequences.md); otherwise the camera's own field of view")
       ->type_name("DIR");
-  app.add_option("--settings", options.settings_file, "JSON file of settings: {\"camera\": {\"lock_exposure\": true}}");
-  app.add_option("--set", options.settings, "One setting as path=value, such as camera.lock_exposure=true; repeatable")->take_all();
-  app.add_option("--record", options.record_folder, "Record what the camera sends in the layout of 7-Scenes")->type_name("DIR");
+  app.add_option("--forest", options.forest, "A forest file; otherwise the one that comes with Foothold")->type_name("FILE");
+  app.add_option("--settings", options.settings_file, "JSON file of settings: {\"camera\": {\"lock_exposure\": true}}")->type_name("FILE");
+  app.add_option("--set", options.settings,
+                 "One setting as path=value, such as camera.lock_exposure=true or fusion.volume.voxel_size_m=0.02; repeatable")
+      ->take_all();
+  apps::add_device_options(app, options.device);
+
+  app.add_option("--load-scene", options.load_scene, "Go on with a saved scene: the camera is looked for in it")->type_name("FILE");
+  app.add_option("--save-scene", options.save_scene, "Save the scene at the end: map, relocaliser and settings")->type_name("FILE");
+  app.add_option("--save-mesh", options.save_mesh, "Save the surface at the end, as PLY")->type_name("FILE");
+  app.add_option("--save-trajectory", options.save_trajectory, "Save the camera's poses at the end, in the format of TUM")
+      ->type_name("FILE");
+  app.add_option("--json", options.json, "Save a summary of the run at the end")->type_name("FILE");
+
+  app.add_option("--record", options.record_folder,
+                 "Record the frames that are reconstructed, in the layout of 7-Scenes: replay_sequence then gives the same trajectory")
+      ->type_name("DIR");
+  app.add_flag("--record-only", options.record_only, "With --record: record every frame of the camera, and reconstruct nothing");
+  app.add_flag("--headless", options.headless, "Open no window");
+  app.add_option("--view-dir", options.view_folder, "Write the view as PNG files into this folder")->type_name("DIR");
+  app.add_option("--view-every", options.view_every, "Write the view after every so many frames")
+      ->check(CLI::Range(1, 1000000))
+      ->capture_default_str();
   app.add_option("--frames", options.num_frames, "Stop after this many frames; 0 for no limit")
       ->check(CLI::Range(0, 100000000))
       ->capture_default_str();
+  app.add_option("--duration", options.duration_s, "Stop after this many seconds; 0 for no limit")
+      ->check(CLI::Range(0.0, 1e9))
+      ->capture_default_str();
+  app.add_option("--press", options.keys, "Press a key of the window before a frame, as KEY@FRAME, such as l@100; repeatable")->take_all();
 }
 
 LiveSettings live_settings(const LiveOptions& options) {
@@ -63,13 +94,42 @@ LiveSettings live_settings(const LiveOptions& options) {
     }
     assign_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
   }
-  settings.camera.validate();
+  settings.validate();
   return settings;
 }
 
 std::optional<RgbdCalibration> camera_calibration(const LiveOptions& options) {
   if (options.calibration_folder.empty()) return std::nullopt;
   return read_calibration(options.calibration_folder);
+}
+
+std::vector<ScriptedKey> scripted_keys(const std::vector<std::string>& texts) {
+  std::vector<ScriptedKey> keys;
+  for (const std::string& text : texts) {
+    ScriptedKey key;
+    int end = 0;
+    const bool is_read = std::sscanf(text.c_str(), "%c@%9d%n", &key.key, &key.frame, &end) == 2;
+    if (!is_read || end != static_cast<int>(text.size()) || key.frame < 0) {
+      throw InvalidSettings("--press: got '" + text + "', expected KEY@FRAME, such as l@100");
+    }
+    keys.push_back(key);
+  }
+  std::stable_sort(keys.begin(), keys.end(), [](const ScriptedKey& a, const ScriptedKey& b) { return a.frame < b.frame; });
+  return keys;
+}
+
+void check_options(const LiveOptions& options) {
+  if (options.record_only) {
+    if (options.record_folder.empty()) throw InvalidSettings("--record-only: says how to record; give --record DIR as well");
+    for (const std::string* output : {&options.load_scene, &options.save_scene, &options.save_mesh, &options.save_trajectory}) {
+      if (!output->empty())
+        throw InvalidSettings("--record-only: nothing is reconstructed, so there is no '" + *output + "' to read or write");
+    }
+  }
+  // A long run should not end with a folder that does not exist.
+  for (const std::string* output : {&options.save_scene, &options.save_mesh, &options.save_trajectory, &options.json}) {
+    if (!output->empty()) AtomicFile(*output, Durability::kCrash);
+  }
 }
 
 std::string describe_devices(const std::vector<OpenNIDeviceInfo>& devices) {

@@ -8,18 +8,31 @@
 #include <vector>
 
 #include "common/app_main.h"
+#include "common/reconstruction_session.h"
 #include "foothold/openni/openni_source.h"
 
 namespace foothold::live {
 
 /// Every setting that the app can change.
-struct LiveSettings {
+struct LiveSettings : apps::SessionSettings {
+  /// The camera is waited for in short steps, so that keys are heeded meanwhile.
+  LiveSettings() { camera.read_timeout_ms = 50; }
+
   OpenNISettings camera;
 
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&LiveSettings::camera, "camera");
+    SessionSettings::fields(v);
   }
+  /// @throws InvalidSettings
+  void validate() const;
+};
+
+/// A key pressed by the command line.
+struct ScriptedKey {
+  char key = 0;
+  int frame = 0;  ///< before this one, counted from 0
 };
 
 /// As typed.
@@ -30,8 +43,23 @@ struct LiveOptions {
   std::string calibration_folder;
   std::string settings_file;
   std::vector<std::string> settings;
+  std::string forest;
+  apps::DeviceOptions device;
+
   std::string record_folder;
-  int num_frames = 0;  ///< stop after so many; 0 for no limit
+  bool record_only = false;
+  bool headless = false;
+  std::string view_folder;
+  int view_every = 30;  ///< frames
+  int num_frames = 0;   ///< stop after so many; 0 for no limit
+  double duration_s = 0.0;
+  std::vector<std::string> keys;
+
+  std::string load_scene;
+  std::string save_scene;
+  std::string save_mesh;
+  std::string save_trajectory;
+  std::string json;
 };
 
 void add_live_options(CLI::App& app, LiveOptions& options);
@@ -41,6 +69,12 @@ LiveSettings live_settings(const LiveOptions& options);
 
 /// The calibration that --calibration names, if any. @throws FileError
 std::optional<RgbdCalibration> camera_calibration(const LiveOptions& options);
+
+/// What --press asks for, by rising frame. @throws InvalidSettings
+std::vector<ScriptedKey> scripted_keys(const std::vector<std::string>& texts);
+
+/// @throws InvalidSettings for options that exclude each other; FileError for a file that could not be written in the end.
+void check_options(const LiveOptions& options);
 
 /// What --list-devices prints.
 std::string describe_devices(const std::vector<OpenNIDeviceInfo>& devices);
