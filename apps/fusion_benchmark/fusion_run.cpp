@@ -59,4 +59,32 @@ FusionRun run_fusion(const Context& context, Trace& trace, const Sequence& seque
   return run;
 }
 
+CeilingRun run_ceiling(const Context& context, const Sequence& map, const Sequence& tested, int stride, const FusionSettings& settings,
+                       const std::function<bool(int)>& progress) {
+  TsdfVolume volume(context, settings.volume);
+  int num_done = 0;
+  for (int i = 0; i < map.num_frames(); i += stride) {
+    const RgbdFrame frame = map.load(i);
+    if (frame.world_from_camera) volume.integrate(frame.view(), *frame.world_from_camera);
+    if (!progress(++num_done)) return {};
+  }
+  PoseRefiner refiner(context, settings.refiner);
+  CeilingRun run;
+  for (int i = 0; i < tested.num_frames(); i += stride) {
+    const RgbdFrame frame = tested.load(i);
+    if (frame.world_from_camera) {
+      const RefinedPose refined = refiner.refine_one(frame.view(), volume, *frame.world_from_camera);
+      const double distance_m = translation_distance_m(refined.world_from_camera, *frame.world_from_camera);
+      const double angle_deg = 57.29578 * rotation_distance_rad(refined.world_from_camera, *frame.world_from_camera);
+      ++run.num_frames;
+      run.num_within_5 += distance_m <= 0.05 && angle_deg <= 5.0 ? 1 : 0;
+      run.num_within_10 += distance_m <= 0.1 && angle_deg <= 10.0 ? 1 : 0;
+      run.num_accepted += refined.accepted ? 1 : 0;
+      run.distances_m.push_back(distance_m);
+    }
+    if (!progress(++num_done)) break;
+  }
+  return run;
+}
+
 }  // namespace foothold::apps

@@ -40,4 +40,18 @@ struct FusionRun {
 FusionRun run_fusion(const Context& context, Trace& trace, const Sequence& sequence, int stride, const FusionSettings& settings,
                      const std::function<bool(int)>& progress);
 
+/// How far alignment with a map moves the true poses of frames: what no relocaliser that aligns its answers can beat on a recording whose
+/// true poses do not agree with one another.
+struct CeilingRun {
+  int num_frames = 0;
+  int num_within_5 = 0;   ///< 5 cm and 5 deg
+  int num_within_10 = 0;  ///< 10 cm and 10 deg
+  std::vector<double> distances_m;
+  int num_accepted = 0;  ///< by the acceptance classifier
+};
+
+/// Fuses one recording with its true poses, then aligns the frames of another in the same world, from their true poses.
+CeilingRun run_ceiling(const Context& context, const Sequence& map, const Sequence& tested, int stride, const FusionSettings& settings,
+                       const std::function<bool(int)>& progress);
+
 }  // namespace foothold::apps

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
 /// fusion_benchmark: how well, how fast and in how much memory the tracker follows a recording, without any relocaliser.
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -18,6 +19,7 @@ namespace {
 
 struct Options {
   std::vector<std::string> sequences;
+  std::string map;
   int stride = 1;
   std::string settings_file;
   std::vector<std::string> assignments;
@@ -86,8 +88,44 @@ nlohmann::json to_json(const std::string& sequence, const FusionRun& run, const 
   return json;
 }
 
+/// Measures what alignment does to true poses.
+int run_ceilings(const Options& options, const FusionSettings& settings) {
+  const Context context = make_context(options.device);
+  if (context.memory() != MemoryKind::kHost) throw InvalidSettings("--device: got cuda, expected cpu with --map");
+  const std::shared_ptr<Sequence> map = open_sequence(options.map, context);
+  nlohmann::json json = nlohmann::json::array();
+  for (const std::string& spec : options.sequences) {
+    const std::shared_ptr<Sequence> tested = open_sequence(spec, context);
+    CeilingRun result;
+    {
+      ProgressBar bar(spec, (map->num_frames() + tested->num_frames()) / options.stride);
+      result = run_ceiling(context, *map, *tested, options.stride, settings, [&](int done) {
+        bar.set(done);
+        return !interrupted();
+      });
+    }
+    if (interrupted()) return kInterrupted;
+    const double percent = 100.0 / std::max(1, result.num_frames);
+    std::printf(
+        "%s on a map of %s: true poses after alignment: %.1f %% within 5 cm / 5 deg, %.1f %% within 10 / 10, median %.1f mm; %.1f %% "
+        "accepted\n",
+        spec.c_str(), options.map.c_str(), percent * result.num_within_5, percent * result.num_within_10,
+        1e3 * quantile(result.distances_m, 0.5), percent * result.num_accepted);
+    json.push_back({{"map", options.map},
+                    {"sequence", spec},
+                    {"frames", result.num_frames},
+                    {"within_5cm_5deg", result.num_within_5},
+                    {"within_10cm_10deg", result.num_within_10},
+                    {"accepted", result.num_accepted},
+                    {"median_m", quantile(result.distances_m, 0.5)}});
+  }
+  if (!options.json_file.empty()) write_file_atomically(options.json_file, json.dump(1) + "\n");
+  return kSuccess;
+}
+
 int run(const Options& options) {
   const FusionSettings settings = settings_of(options);
+  if (!options.map.empty()) return run_ceilings(options, settings);
   if (!options.trajectory_file.empty() && options.sequences.size() != 1) {
     throw InvalidSettings("--trajectory: got " + std::to_string(options.sequences.size()) + " sequences, expected one");
   }
@@ -126,6 +164,9 @@ int main(int argc, char** argv) {
   app.add_option("--sequence", options.sequences, "A folder or synthetic:ROOM?setting=value&..., with @A:B for a part; repeatable")
       ->required()
       ->take_all();
+  app.add_option("--map", options.map,
+                 "Instead of tracking, fuse this recording with its true poses, and align the frames of each --sequence from theirs: the "
+                 "ceiling of relocalisation with refinement");
   app.add_option("--stride", options.stride, "Use every Nth frame")->check(CLI::Range(1, 1000000))->capture_default_str();
   app.add_option("--settings", options.settings_file, "JSON file of settings")->type_name("FILE");
   app.add_option("--set", options.assignments, "One setting as setting=value, such as icp.finest_level=1; repeatable")->take_all();

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 
+#include "foothold/fusion/pose_refiner.h"
 #include "foothold/relocalisation/keyframe_relocaliser.h"
 #include "foothold/relocalisation/settings.h"
 
@@ -16,6 +17,8 @@ struct BenchmarkSettings {
   ForestRelocaliserSettings paper = ForestRelocaliserSettings::preset("paper");
   KeyframeRelocaliserSettings ferns;
   RandomForestSettings random_forest;  ///< used with --forest random
+  TsdfSettings map;                    ///< of the methods that refine
+  PoseRefinerSettings refiner;         ///< likewise
 
   template <class Visitor>
   static void fields(Visitor& v) {
@@ -23,6 +26,8 @@ struct BenchmarkSettings {
     v(&BenchmarkSettings::paper, "paper");
     v(&BenchmarkSettings::ferns, "ferns");
     v(&BenchmarkSettings::random_forest, "random_forest");
+    v(&BenchmarkSettings::map, "map");
+    v(&BenchmarkSettings::refiner, "refiner");
   }
 };
 

@@ -6,6 +6,7 @@
 
 #include "foothold/base/error.h"
 #include "foothold/relocalisation/forest_relocaliser.h"
+#include "mapping_relocaliser.h"
 #include "uploading_relocaliser.h"
 
 namespace foothold::benchmark {
@@ -18,19 +19,29 @@ std::unique_ptr<Relocaliser> make_forest_relocaliser(const Context& context, con
   return std::make_unique<UploadingRelocaliser>(context, std::move(relocaliser));
 }
 
+std::unique_ptr<Relocaliser> make_mapping_relocaliser(const Context& context, const MethodInputs& inputs, Refinement refinement) {
+  return std::make_unique<MappingRelocaliser>(context, make_forest_relocaliser(context, *inputs.forest, inputs.settings.forest),
+                                              inputs.settings.map, inputs.settings.refiner, refinement);
+}
+
 std::vector<Method> list_methods() {
-  return {{"forest", "forest adapted online, tuned settings", true,
-           [](const Context& context, const MethodInputs& inputs) {
-             return make_forest_relocaliser(context, *inputs.forest, inputs.settings.forest);
-           }},
-          {"paper", "forest adapted online, the paper's settings", true,
-           [](const Context& context, const MethodInputs& inputs) {
-             return make_forest_relocaliser(context, *inputs.forest, inputs.settings.paper);
-           }},
-          {"ferns", "random ferns, the nearest keyframe's pose; on the host whatever the device", false,
-           [](const Context& context, const MethodInputs& inputs) {
-             return std::make_unique<KeyframeRelocaliser>(context, inputs.settings.ferns);
-           }}};
+  return {
+      {"forest", "forest adapted online, tuned settings", true,
+       [](const Context& context, const MethodInputs& inputs) {
+         return make_forest_relocaliser(context, *inputs.forest, inputs.settings.forest);
+       }},
+      {"paper", "forest adapted online, the paper's settings", true,
+       [](const Context& context, const MethodInputs& inputs) {
+         return make_forest_relocaliser(context, *inputs.forest, inputs.settings.paper);
+       }},
+      {"forest+icp", "forest, its first estimate aligned with a map of what was learnt", true,
+       [](const Context& context, const MethodInputs& inputs) { return make_mapping_relocaliser(context, inputs, Refinement::kFirst); }},
+      {"forest+icp+rank", "forest, its estimates aligned with the map and ranked by rendering", true,
+       [](const Context& context, const MethodInputs& inputs) { return make_mapping_relocaliser(context, inputs, Refinement::kRanked); }},
+      {"ferns", "random ferns, the nearest keyframe's pose; on the host whatever the device", false,
+       [](const Context& context, const MethodInputs& inputs) {
+         return std::make_unique<KeyframeRelocaliser>(context, inputs.settings.ferns);
+       }}};
 }
 
 }  // namespace

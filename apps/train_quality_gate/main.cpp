@@ -26,7 +26,7 @@ namespace {
 struct GateSettings {
   QualityExampleSettings examples;
   ClassifierTrainingSettings tracking = {1.0F, 0.1F, 0.02F, 20000};
-  ClassifierTrainingSettings acceptance = {1.0F, 0.004F, 0.002F, 20000};
+  ClassifierTrainingSettings acceptance = {1.0F, 0.01F, 0.002F, 20000};
   FusionSettings fusion;
 
   template <class Visitor>
