@@ -23,6 +23,7 @@ struct Options {
   std::map<std::string, std::string> settings;  // path and value of the options that are settings
   std::string settings_file;
   std::vector<std::string> assignments;
+  std::vector<std::string> notes;
   bool resume = false;
   int num_threads = 0;
   std::string forest_file;
@@ -109,6 +110,7 @@ int train(const Options& options) {
   ForestTrainingRun run;
   run.checkpoint = options.out + ".checkpoint";
   run.resume = options.resume;
+  run.notes = options.notes;
   std::optional<Forest> forest;
   {
     ProgressDisplay display;
@@ -158,6 +160,7 @@ int main(int argc, char** argv) {
     app.add_option(shortcut.option, options.settings[shortcut.setting], std::string("Setting ") + shortcut.setting)->type_name("N");
   app.add_option("--settings", options.settings_file, "JSON file of settings")->type_name("FILE");
   app.add_option("--set", options.assignments, "One setting as setting=value; repeatable")->take_all();
+  app.add_option("--note", options.notes, "A line to add to what `info` prints, such as 'commit = abc'; repeatable")->take_all();
   app.add_option("--threads", options.num_threads, "Threads; 0 for as many as the machine has. The forest does not depend on it")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

@@ -24,9 +24,9 @@ class TrainTest(app_support.AppTest):
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["one.forest", "other.forest", "two.forest"])
 
     def test_info_tells_where_a_forest_comes_from(self):
-        self.train("a.forest", "--seed", 5)
+        self.train("a.forest", "--seed", 5, "--note", "commit = abc")
         info = self.check_success("info", "a.forest").stdout
-        for words in ["2 trees", "16 features", "depth 4", "seed = 5", f"sequence = {ROOM}, 4 frames", "data hash = "]:
+        for words in ["2 trees", "16 features", "depth 4", "seed = 5", f"sequence = {ROOM}, 4 frames", "data hash = ", "commit = abc"]:
             self.assertIn(words, info)
 
     def test_settings_from_a_file_yield_to_options(self):

@@ -55,7 +55,7 @@ TEST_CASE("ForestRelocaliser::explain: tells the candidates of relocalise(), and
   const double told = static_cast<double>(explanation.candidates[0].inlier_fraction);
   const double counted = inlier_share(explanation, explanation.candidates[0].world_from_camera);
   INFO(told << " told, " << counted << " counted");
-  REQUIRE(told > 0.1);
+  REQUIRE(told > 0.03);  // a frame fills few of the 40,000 leaves with enough points for a mode
   REQUIRE(counted >= told - 1e-3);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "foothold/base/error.h"
+#include "foothold/synthetic/room.h"
 #include "support/catch.h"
 #include "support/error_message.h"
 
@@ -145,7 +146,7 @@ TEST_CASE("make_random_forest: trees are complete, and leaf numbers run through 
 
 TEST_CASE("make_random_forest: features and thresholds follow the settings") {
   const RandomForestSettings settings;
-  const Forest forest = default_forest();
+  const Forest forest = make_random_forest(settings);
   REQUIRE(forest.num_trees() == 5);
   REQUIRE(forest.num_leaves() == 5 * 8192);
   REQUIRE(forest.features().size() == 256);
@@ -185,9 +186,22 @@ TEST_CASE("make_random_forest: a function of its settings alone") {
   REQUIRE(make_random_forest(settings).fingerprint() != forest.fingerprint());
 }
 
-TEST_CASE("default_forest: is the one that saved scenes refer to") {
+TEST_CASE("make_random_forest: the default settings give the forest that saved scenes refer to") {
+  REQUIRE(make_random_forest({}).fingerprint() == 11778252148758534234ULL);
+}
+
+TEST_CASE("default_forest: is the one that saved scenes refer to and that docs/forest-training.md documents") {
   // Scenes saved with the default forest can be loaded only while this number stays.
-  REQUIRE(default_forest().fingerprint() == 11778252148758534234ULL);
+  const Forest forest = default_forest();
+  REQUIRE(forest.fingerprint() == 0xfe97c427631feb44ULL);
+  REQUIRE(forest.num_trees() == 5);
+  REQUIRE(forest.num_leaves() == 40686);
+  REQUIRE(forest.features().size() == 256);
+  for (const char* line : {"trainer version 1\n", "agreement_weight = 4\n", "seed = 42\n", "data hash = 630748bc9a99de00", "commit = "})
+    REQUIRE(test::contains(forest.provenance(), line));
+  // It was trained on rooms that nobody is tested in.
+  REQUIRE(test::contains(forest.provenance(), "sequence = synthetic:training-19?frames=1200"));
+  for (const std::string& room : synthetic_room_names()) REQUIRE_FALSE(test::contains(forest.provenance(), "synthetic:" + room));
 }
 
 }  // namespace

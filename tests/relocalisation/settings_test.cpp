@@ -26,7 +26,7 @@ Values values_of(const Settings& settings) {
 /// The defaults, as documented.
 const Values kTuned = {
     {"features.downscale", "4"},
-    {"reservoirs.capacity", "256"},
+    {"reservoirs.capacity", "112"},
     {"reservoirs.grid_spacing_px", "8"},
     {"reservoirs.jitter", "true"},
     {"clustering.sigma_m", "0.1"},
@@ -57,6 +57,7 @@ const Values kTuned = {
     {"pose.alignment_samples", "1200"},
     {"pose.first_alignment_radius_m", "0.06"},
     {"pose.last_alignment_radius_m", "0.04"},
+    {"pose.ranking_points", "2048"},
     {"pose.num_candidates", "16"},
     {"pose.seed", "42"},
     {"acceptance_threshold", "0.9"},
@@ -85,6 +86,7 @@ const Values kPaperDiffers = {
     {"pose.refinement_iterations", "10"},
     {"pose.final_iterations", "10"},
     {"pose.alignment_iterations", "0"},
+    {"pose.ranking_points", "0"},
 };
 
 const Values kRandomForest = {

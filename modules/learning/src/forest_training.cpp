@@ -148,6 +148,7 @@ class Training {
     std::ostringstream data;
     data << "\nexamples = " << examples_.size() << ", " << examples_per_frame_ << " a frame\ndata hash = " << std::hex
          << hash_of(examples_);
+    for (const std::string& note : run_.notes) data << "\n" << note;
     return grower.forest(features_, description_ + data.str());
   }
 

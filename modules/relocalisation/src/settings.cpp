@@ -32,6 +32,7 @@ ForestRelocaliserSettings paper_preset() {
   settings.pose.refinement_iterations = 10;
   settings.pose.final_iterations = 10;
   settings.pose.alignment_iterations = 0;
+  settings.pose.ranking_points = 0;
   return settings;
 }
 

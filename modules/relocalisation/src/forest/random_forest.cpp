@@ -74,6 +74,4 @@ Forest make_random_forest(const RandomForestSettings& settings) {
   return Forest(std::move(features), std::move(nodes), std::move(roots), provenance_of(settings));
 }
 
-Forest default_forest() { return make_random_forest(RandomForestSettings{}); }
-
 }  // namespace foothold

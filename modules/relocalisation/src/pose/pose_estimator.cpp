@@ -31,6 +31,8 @@ PoseEstimator::Buffers::Buffers(MemoryKind memory)
       alignment(memory, 1),
       offsets(memory),
       misfits(memory),
+      remembered(memory),
+      evidence(memory),
       candidates(memory) {}
 
 PoseEstimator::PoseEstimator(const Context& context, const PoseEstimatorSettings& settings)
@@ -52,6 +54,9 @@ PoseEstimator::PoseEstimator(const Context& context, const PoseEstimatorSettings
   buffers_.nearest.resize(refined * pool_size);
   buffers_.candidates.resize(static_cast<std::size_t>(std::min(settings.num_candidates, settings.num_hypotheses)));
   const std::vector<float> not_aligned(buffers_.candidates.size(), 1.0F);
+  buffers_.remembered.resize(static_cast<std::size_t>(settings.ranking_points));
+  buffers_.evidence.resize(num_hypotheses);
+  buffers_.evidence.clear_to_zero();
   buffers_.misfits.assign(Span<const float>(not_aligned));
 }
 
@@ -77,6 +82,10 @@ std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const
     {
       const ScopedStage stage(context, "relocalise/ransac");
       Algorithms::preempt(problem, buffers_);
+    }
+    if (settings_.ranking_points > 0) {
+      const ScopedStage stage(context, "relocalise/rank");
+      Algorithms::rank(problem, buffers_);
     }
     const ScopedStage stage(context, "relocalise/refine");
     Algorithms::finish(problem, buffers_);

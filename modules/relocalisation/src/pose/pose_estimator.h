@@ -35,13 +35,15 @@ struct CorrespondencePoolView {
 /// A hypothesis that came far, with what its pose explains of the whole pool.
 struct PoseCandidate {
   SE3 scene_from_camera;
-  float mean_energy = 0.0F;      ///< truncated Mahalanobis distance per pooled pixel, Eq. 4
-  float inlier_fraction = 0.0F;  ///< pooled pixels with a mode within kInlierDistanceM, among all pooled pixels with depth
-  float fine_fraction = 0.0F;    ///< the same within kFineInlierDistanceM
-  float surface_fit = 0.0F;      ///< how well samples lie on the remembered surface, 0 to 1; 0 for candidates that were not aligned
+  float mean_energy = 0.0F;            ///< truncated Mahalanobis distance per pooled pixel, Eq. 4
+  float inlier_fraction = 0.0F;        ///< pooled pixels with a mode within kInlierDistanceM, among all pooled pixels with depth
+  float fine_fraction = 0.0F;          ///< the same within kFineInlierDistanceM
+  float surface_fit = 0.0F;            ///< how well samples lie on the remembered surface, 0 to 1; 0 for candidates that were not aligned
+  float contradicted_fraction = 0.0F;  ///< SceneEvidence's; 0 without ranking_points
+  float alike_fraction = 0.0F;         ///< SceneEvidence's; 0 without ranking_points
   std::int32_t valid = 0;
 };
-static_assert(sizeof(PoseCandidate) == 68, "copied from the device");
+static_assert(sizeof(PoseCandidate) == 76, "copied from the device");
 
 inline constexpr float kInlierDistanceM = 0.05F;
 inline constexpr float kFineInlierDistanceM = 0.025F;
@@ -65,6 +67,28 @@ struct AlignmentState {
   std::int32_t ended;
 };
 static_assert(sizeof(AlignmentState) == 56, "lives in device memory");
+
+/// A point drawn from all that the leaves remember.
+struct RememberedPoint {
+  float point_scene[3];  ///< [m]
+  std::uint8_t rgb[3];
+  std::uint8_t valid;
+};
+static_assert(sizeof(RememberedPoint) == 16, "lives in device memory");
+
+/// What remembered points say about a pose: counts of those that project to a pixel with depth.
+struct SceneEvidence {
+  float num_in_view;
+  float num_contradicted;  ///< the camera sees through them
+  float num_alike;         ///< at the measured depth, and of the measured colour
+
+  FOOTHOLD_HD float contradicted_fraction() const { return num_contradicted / (num_in_view + kPrior); }
+  FOOTHOLD_HD float alike_fraction() const { return num_alike / (num_in_view + kPrior); }
+
+ private:
+  static constexpr float kPrior = 20.0F;  ///< (T) a few points prove nothing
+};
+static_assert(sizeof(SceneEvidence) == 12, "lives in device memory");
 
 /// Estimates the camera of a frame from the modes its pixels reach.
 ///
@@ -98,6 +122,8 @@ class PoseEstimator {
     Array<AlignmentState> alignment;
     Array<SurfaceOffset> offsets;  ///< alignment samples x trees
     Array<float> misfits;          ///< per candidate, after alignment; 1 for those not aligned
+    Array<RememberedPoint> remembered;
+    Array<SceneEvidence> evidence;  ///< per hypothesis
     Array<PoseCandidate> candidates;
   };
 

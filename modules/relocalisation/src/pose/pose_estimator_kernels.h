@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// The algorithm of pose_estimator.h, for both devices. Its steps are in pool_, hypothesis_, score_ and refine_kernels.h.
+/// The algorithm of pose_estimator.h, for both devices. Its steps are in pool_, hypothesis_, score_, refine_, rank_ and align_kernels.h.
 #pragma once
 
 #include "pose/align_kernels.h"
 #include "pose/hypothesis_kernels.h"
 #include "pose/pool_kernels.h"
 #include "pose/pose_estimator.h"
+#include "pose/rank_kernels.h"
 #include "pose/refine_kernels.h"
 #include "pose/score_kernels.h"
 
@@ -28,6 +29,7 @@ struct PoseAlgorithms {
   static void fill_pool(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
   static void draw_hypotheses(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
   static void preempt(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
+  static void rank(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
   static void finish(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
 };
 
@@ -137,6 +139,29 @@ void PoseAlgorithms<Executor>::preempt(const PoseProblem& problem, PoseEstimator
   }
 }
 
+/// Confronts the first candidates with the points drawn by rank().
+template <class Executor>
+void judge(const PoseProblem& problem, PoseEstimator::Buffers& buffers, const HypothesisSet<Executor>& set, std::size_t num_candidates) {
+  const Intrinsics intrinsics = problem.frame.calibration.depth.scaled(1.0F / static_cast<float>(problem.image.downscale()));
+  set.executor().template for_each_team<NoScratch>(
+      num_candidates, JudgeCandidates<Executor>{problem.image.view(), intrinsics, buffers.remembered.data(),
+                                                problem.settings.ranking_points, problem.settings.max_colour_difference,
+                                                buffers.hypotheses.data(), buffers.order.data(), buffers.evidence.data()});
+}
+
+template <class Executor>
+void PoseAlgorithms<Executor>::rank(const PoseProblem& problem, PoseEstimator::Buffers& buffers) {
+  constexpr std::uint64_t kRankingStream = ~std::uint64_t{1};
+  const HypothesisSet<Executor> set(problem, buffers);
+  const std::size_t num_candidates = buffers.candidates.size();
+  set.executor().for_each(
+      buffers.remembered.size(),
+      DrawRememberedPoint{problem.reservoirs, derive_seed(problem.settings.seed, kRankingStream), buffers.remembered.data()});
+  judge(problem, buffers, set, num_candidates);
+  set.executor().for_each(num_candidates, MakeEvidenceKey{buffers.evidence.data(), buffers.energies.data(), buffers.order.data()});
+  set.executor().sort(Span<std::uint64_t>(buffers.order.data(), num_candidates), buffers.sort_buffer, 32, 64);
+}
+
 /// Aligns the best candidate with the remembered points. The pool's leaves are those of fill_pool().
 template <class Executor>
 void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffers, const HypothesisSet<Executor>& set) {
@@ -175,12 +200,13 @@ void PoseAlgorithms<Executor>::finish(const PoseProblem& problem, PoseEstimator:
   const HypothesisSet<Executor> set(problem, buffers);
   for (int round = 0; round < kFinalRounds; ++round) set.refine(1, settings.pool_size, settings.final_iterations);
   if (settings.alignment_iterations > 0) align_with_points(problem, buffers, set);
+  if (settings.ranking_points > 0) judge(problem, buffers, set, 1);  // once more, where it is now
   const std::size_t num_candidates = buffers.candidates.size();
   set.executor().template for_each_team<NoScratch>(
       set.num_groups(num_candidates),
       EvaluateCandidates<Executor>{set.pool(), buffers.sampled.data(), static_cast<std::size_t>(settings.pool_size),
-                                   buffers.hypotheses.data(), buffers.energies.data(), buffers.misfits.data(), buffers.order.data(),
-                                   num_candidates, settings.energy_truncation, buffers.candidates.data()});
+                                   buffers.hypotheses.data(), buffers.energies.data(), buffers.misfits.data(), buffers.evidence.data(),
+                                   buffers.order.data(), num_candidates, settings.energy_truncation, buffers.candidates.data()});
 }
 
 }  // namespace foothold

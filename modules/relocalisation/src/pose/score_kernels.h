@@ -126,6 +126,7 @@ struct EvaluateCandidates {
   const SE3* hypotheses;
   const float* energies;
   const float* misfits;
+  const SceneEvidence* evidence;  ///< per hypothesis
   const std::uint64_t* order;
   std::size_t num_candidates;
   float truncation;
@@ -154,6 +155,8 @@ struct EvaluateCandidates {
       candidate.inlier_fraction = sums[kWidth + w] * scale;
       candidate.fine_fraction = sums[2 * kWidth + w] * scale;
       candidate.surface_fit = 1.0F - misfits[first_slot + static_cast<std::size_t>(w)];
+      candidate.contradicted_fraction = evidence[poses.index[w]].contradicted_fraction();
+      candidate.alike_fraction = evidence[poses.index[w]].alike_fraction();
       candidate.valid = energies[poses.index[w]] < 1e30F ? 1 : 0;
     }
   }

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Foothold authors
 /// Offline training of a forest's branches from recordings with known poses. Reference: [Cavallari2017] Sec. 2.2.1.
 ///
-/// Nobody has to train: default_forest() adapts to any scene. This is for those who want to know whether branches trained on their own data
-/// do better.
+/// Nobody has to train: default_forest() adapts to any scene. This made it, and is for those who want to know whether branches trained on
+/// their own data do better.
 #pragma once
 
 #include <cstdint>
@@ -84,13 +84,15 @@ struct ForestTrainingProgress {
   std::int64_t total = 0;  ///< of them
 };
 
-/// How a training runs; none of it changes the forest.
+/// How a training runs; none of it changes the branches.
 struct ForestTrainingRun {
   /// File that remembers what is finished, so that an interrupted training can be resumed; empty for none. It grows to the size of the
   /// examples.
   std::string checkpoint;
   /// Continues the training that the checkpoint file remembers, if there is one; otherwise an old file is replaced.
   bool resume = false;
+  /// Lines to add to the forest's provenance, such as "commit = abc".
+  std::vector<std::string> notes;
   /// Called now and then; training stops when it returns false.
   std::function<bool(const ForestTrainingProgress&)> progress;
 };

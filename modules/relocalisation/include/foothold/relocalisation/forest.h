@@ -78,7 +78,8 @@ class Forest {
 /// Complete trees of random splits that have seen no data. A function of the settings alone. @throws InvalidSettings
 Forest make_random_forest(const RandomForestSettings& settings);
 
-/// The forest that Foothold uses unless told otherwise.
+/// The forest that Foothold uses unless told otherwise: data/default.forest, trained on rendered rooms (docs/forest-training.md). It is
+/// part of the library; no file is read.
 Forest default_forest();
 
 /// Writes a forest in Foothold's binary format (docs/forest-format.md): little-endian, versioned, checksummed. @throws FileError

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Ranking the last candidates by points of the whole scene. Energies compare a frame's pixels with their own leaves only, so they cannot
+/// tell apart places that look alike; but from a wrong place, the camera sees through surfaces that the scene remembers. Not in the paper:
+/// its counterpart in the authors' later work is ranking by a rendered model, which a relocaliser does not have.
+#pragma once
+
+#include <cmath>
+#include <cstring>
+
+#include "foothold/base/random.h"
+#include "pose/score_kernels.h"
+#include "reservoirs/leaf_reservoirs_kernels.h"
+
+namespace foothold {
+
+/// Draws one point from a random leaf; one that is not valid if the leaves asked remember nothing.
+struct DrawRememberedPoint {
+  LeafReservoirsView reservoirs;
+  std::uint64_t seed;
+  RememberedPoint* points;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    constexpr int kTries = 8;
+    Random random(seed, i);
+    RememberedPoint drawn{};
+    for (int k = 0; k < kTries && drawn.valid == 0; ++k) {
+      const std::uint32_t leaf = random.below(static_cast<std::uint32_t>(reservoirs.num_leaves));
+      const int num_points = reservoirs.num_stored(leaf);
+      if (num_points == 0) continue;
+      const ReservoirPoint point = reservoirs.point(leaf, static_cast<int>(random.below(static_cast<std::uint32_t>(num_points))));
+      drawn = {{static_cast<float>(point.x_mm) * 1e-3F, static_cast<float>(point.y_mm) * 1e-3F, static_cast<float>(point.z_mm) * 1e-3F},
+               {static_cast<std::uint8_t>(red_of(point.rgb565)), static_cast<std::uint8_t>(green_of(point.rgb565)),
+                static_cast<std::uint8_t>(blue_of(point.rgb565))},
+               1};
+    }
+    points[i] = drawn;
+  }
+};
+
+/// Projects the points into the frame from each candidate, and counts.
+template <class Executor>
+struct JudgeCandidates {
+  FeatureImageView image;
+  Intrinsics intrinsics;  ///< of the averaged image
+  const RememberedPoint* points;
+  int num_points;
+  int max_colour_difference;
+  const SE3* hypotheses;
+  const std::uint64_t* order;
+  SceneEvidence* evidence;  ///< per hypothesis
+
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t slot) const {
+    const std::uint32_t hypothesis = hypothesis_of(order[slot]);
+    const Eigen::Matrix3f camera_from_scene = hypotheses[hypothesis].rotation.transpose();
+    const Eigen::Vector3f camera_scene = hypotheses[hypothesis].translation;
+    float counts[3] = {};
+    for (int i = team.lane(); i < num_points; i += team.size()) {
+      const RememberedPoint& point = points[i];
+      if (point.valid == 0) continue;
+      const Eigen::Vector3f point_scene(point.point_scene[0], point.point_scene[1], point.point_scene[2]);
+      add_point(camera_from_scene * (point_scene - camera_scene), point, counts);
+    }
+    team.sum_all(counts);
+    if (team.lane() == 0) evidence[hypothesis] = {counts[0], counts[1], counts[2]};
+  }
+
+ private:
+  static constexpr float kNearestM = 0.3F;
+  static constexpr float kFurthestM = 6.0F;
+  static constexpr float kToleranceM = 0.04F;            ///< (T) of the unaligned poses that are judged
+  static constexpr float kToleranceAtOneMetre = 0.005F;  ///< sensor noise grows with the square of the depth [m]
+
+  FOOTHOLD_HD FOOTHOLD_INLINE void add_point(const Eigen::Vector3f& point_camera, const RememberedPoint& point, float* counts) const {
+    const float z = point_camera.z();
+    if (!(z > kNearestM && z < kFurthestM)) return;
+    const Eigen::Vector2f pixel = intrinsics.project(point_camera);
+    const auto u = static_cast<int>(std::floor(pixel.x() + 0.5F));
+    const auto v = static_cast<int>(std::floor(pixel.y() + 0.5F));
+    if (u < 1 || v < 1 || u >= image.width - 1 || v >= image.height - 1) return;
+    const FeaturePixel& centre = image.pixels[v * image.width + u];
+    if (centre.depth_mm() <= 0) return;
+    int nearest_mm = centre.depth_mm();
+    int furthest_mm = centre.depth_mm();
+    for (int dv = -1; dv <= 1; ++dv) {
+      for (int du = -1; du <= 1; ++du) {
+        const int depth_mm = image.pixels[(v + dv) * image.width + u + du].depth_mm();
+        if (depth_mm <= 0) continue;
+        nearest_mm = depth_mm < nearest_mm ? depth_mm : nearest_mm;
+        furthest_mm = depth_mm > furthest_mm ? depth_mm : furthest_mm;
+      }
+    }
+    const float tolerance_m = kToleranceM + kToleranceAtOneMetre * z * z;
+    const bool in_front = z < static_cast<float>(nearest_mm) * 1e-3F - tolerance_m;
+    const bool behind = z > static_cast<float>(furthest_mm) * 1e-3F + tolerance_m;
+    const std::uint8_t rgb[3] = {static_cast<std::uint8_t>(centre.r()), static_cast<std::uint8_t>(centre.g()),
+                                 static_cast<std::uint8_t>(centre.b())};
+    counts[0] += 1.0F;
+    counts[1] += in_front ? 1.0F : 0.0F;
+    counts[2] += !in_front && !behind && colour_difference(rgb, point.rgb) < max_colour_difference ? 1.0F : 0.0F;
+  }
+};
+
+/// Gives each candidate a key that orders the better ones first; of equals, those of lower energy stay first in a stable sort.
+struct MakeEvidenceKey {
+  const SceneEvidence* evidence;
+  const float* energies;
+  std::uint64_t* order;
+
+  FOOTHOLD_HD void operator()(std::size_t slot) const {
+    const std::uint32_t hypothesis = hypothesis_of(order[slot]);
+    const SceneEvidence& found = evidence[hypothesis];
+    const bool failed = energies[hypothesis] >= 1e30F;
+    const float disbelief = failed ? 1e30F : 1.0F + found.contradicted_fraction() - found.alike_fraction();  // positive
+    std::uint32_t bits = 0;
+    memcpy(&bits, &disbelief, sizeof(bits));
+    order[slot] = (static_cast<std::uint64_t>(bits) << 32U) | hypothesis;
+  }
+};
+
+}  // namespace foothold

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "pose/rank_kernels.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "foothold/base/exec/cpu_executor.h"
+#include "support/catch.h"
+#include "support/random_seed.h"
+
+namespace foothold {
+namespace {
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+constexpr float kWallM = 2.0F;
+constexpr Intrinsics kCamera{146.0F, 146.0F, 80.0F, 60.0F};
+constexpr int kMaxColourDifference = 30;
+
+/// A grey wall right in front of the camera.
+std::vector<FeaturePixel> wall() {
+  FeaturePixel pixel;
+  pixel.channels[0] = static_cast<std::int16_t>(1000.0F * kWallM);
+  for (int k = 1; k < 4; ++k) pixel.channels[k] = 100;
+  return std::vector<FeaturePixel>(static_cast<std::size_t>(kWidth * kHeight), pixel);
+}
+
+RememberedPoint point_at(const Eigen::Vector3f& p, std::uint8_t grey = 100) { return {{p.x(), p.y(), p.z()}, {grey, grey, grey}, 1}; }
+
+SceneEvidence judge(const std::vector<FeaturePixel>& pixels, const std::vector<RememberedPoint>& points, const SE3& scene_from_camera) {
+  const FeatureImageView image{pixels.data(), kWidth, kHeight, 1.0F};
+  const std::uint64_t order = 0;
+  SceneEvidence evidence{-1.0F, -1.0F, -1.0F};
+  NoScratch scratch;
+  JudgeCandidates<CpuExecutor>{image,  kCamera,  points.data(), static_cast<int>(points.size()), kMaxColourDifference, &scene_from_camera,
+                               &order, &evidence}(CpuTeam{}, scratch, 0);
+  return evidence;
+}
+
+TEST_CASE("JudgeCandidates: counts points seen through, at the surface, hidden and out of view") {
+  const struct {
+    const char* what;
+    RememberedPoint point;
+    float in_view, contradicted, alike;
+  } cases[] = {
+      {"on the wall", point_at({0.3F, 0.2F, kWallM}), 1, 0, 1},
+      {"on the wall, another colour", point_at({0.3F, 0.2F, kWallM}, 180), 1, 0, 0},
+      {"in front of the wall", point_at({0.3F, 0.2F, kWallM - 0.3F}), 1, 1, 0},
+      {"behind the wall", point_at({0.3F, 0.2F, kWallM + 0.3F}), 1, 0, 0},
+      {"within the sensor's noise", point_at({0.3F, 0.2F, kWallM - 0.03F}), 1, 0, 1},
+      {"beside the image", point_at({2.0F, 0.0F, kWallM}), 0, 0, 0},
+      {"behind the camera", point_at({0.0F, 0.0F, -kWallM}), 0, 0, 0},
+      {"nothing", RememberedPoint{}, 0, 0, 0},
+  };
+  for (const auto& c : cases) {
+    INFO(c.what);
+    const SceneEvidence evidence = judge(wall(), {c.point}, SE3{});
+    REQUIRE(evidence.num_in_view == c.in_view);
+    REQUIRE(evidence.num_contradicted == c.contradicted);
+    REQUIRE(evidence.num_alike == c.alike);
+  }
+}
+
+TEST_CASE("JudgeCandidates: pixels without depth prove nothing") {
+  const SceneEvidence evidence =
+      judge(std::vector<FeaturePixel>(static_cast<std::size_t>(kWidth * kHeight)), {point_at({0.0F, 0.0F, 1.0F})}, SE3{});
+  REQUIRE(evidence.num_in_view == 0.0F);
+}
+
+TEST_CASE("JudgeCandidates: depends on where the camera is, not on where the scene's origin is") {
+  Random random = test::test_random();
+  Tangent6 twist;
+  for (int k = 0; k < 6; ++k) twist[k] = random.uniform(-1.0F, 1.0F);
+  const SE3 scene_from_camera = se3_exp(twist);
+  std::vector<RememberedPoint> points;
+  constexpr int kNumPoints = 500;
+  for (int i = 0; i < kNumPoints; ++i) {
+    const Eigen::Vector3f p = scene_from_camera * Eigen::Vector3f(random.uniform(-0.8F, 0.8F), random.uniform(-0.6F, 0.6F), kWallM);
+    points.push_back(point_at(p));
+  }
+  const SceneEvidence right = judge(wall(), points, scene_from_camera);
+  REQUIRE(right.num_in_view == kNumPoints);
+  REQUIRE(right.num_contradicted == 0.0F);
+  REQUIRE(right.num_alike == kNumPoints);
+  // Half a metre further back, the camera would see the wall where nothing is remembered, through what is remembered.
+  SE3 wrong = scene_from_camera;
+  wrong.translation += wrong.rotation * Eigen::Vector3f(0.0F, 0.0F, 0.5F);
+  const SceneEvidence off = judge(wall(), points, wrong);
+  REQUIRE(off.num_alike == 0.0F);
+  REQUIRE(off.num_contradicted == off.num_in_view);
+  REQUIRE(off.contradicted_fraction() > 0.9F);
+}
+
+TEST_CASE("MakeEvidenceKey: believed candidates first, equal ones as they were, failed ones last") {
+  constexpr float kFailed = std::numeric_limits<float>::infinity();
+  const std::vector<SceneEvidence> evidence = {{100, 0, 0}, {100, 0, 90}, {100, 60, 30}, {100, 0, 90}, {100, 0, 100}, {0, 0, 0}};
+  const std::vector<float> energies = {1, 2, 3, 4, kFailed, 5};
+  std::vector<std::uint64_t> order = {0, 3, 2, 1, 4, 5};
+  const MakeEvidenceKey make_key{evidence.data(), energies.data(), order.data()};
+  for (std::size_t slot = 0; slot < order.size(); ++slot) make_key(slot);
+  std::stable_sort(order.begin(), order.end(), [](std::uint64_t a, std::uint64_t b) { return (a >> 32U) < (b >> 32U); });
+  std::vector<std::uint32_t> hypotheses;
+  for (const std::uint64_t key : order) hypotheses.push_back(hypothesis_of(key));
+  REQUIRE(hypotheses == std::vector<std::uint32_t>{3, 1, 0, 5, 2, 4});
+}
+
+TEST_CASE("DrawRememberedPoint: draws what leaves hold, and nothing from empty ones") {
+  LeafReservoirs reservoirs(Context{}, 64, ReservoirSettings{}, 1);
+  RememberedPoint point = point_at({1.0F, 2.0F, 3.0F});
+  const DrawRememberedPoint draw{reservoirs.view(), 7, &point};
+  draw(0);
+  REQUIRE(point.valid == 0);
+}
+
+}  // namespace
+}  // namespace foothold
