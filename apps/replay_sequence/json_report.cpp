@@ -61,7 +61,7 @@ Json kidnap_json(const KidnapRecord& record) {
           {"from", record.kidnap.from},
           {"to", record.kidnap.to},
           {"covered", record.kidnap.num_covered},
-          {"judged", record.frames.size()},
+          {"judged", outcome.num_judged},
           {"mapped", record.mapped.has_value() ? number(*record.mapped) : Json(nullptr)},
           {"recovered", outcome.recovered},
           {"right_at_end", outcome.right_at_end},

@@ -95,7 +95,7 @@ std::map<std::string, Spread> stage_times(const ReplayRun& run) {
 std::map<std::string, KidnapSummary> kidnap_summaries(const ReplayResult& result) {
   std::map<std::string, std::vector<KidnapOutcome>> outcomes;
   for (const KidnapRecord& record : result.kidnaps) {
-    if (record.frames.empty()) continue;  // interrupted before it came
+    if (record.outcome.num_judged == 0) continue;  // interrupted before it came, or the undisturbed run was lost there
     outcomes[to_string(record.kidnap.kind)].push_back(record.outcome);
     outcomes["all"].push_back(record.outcome);
   }

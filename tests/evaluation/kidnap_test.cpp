@@ -178,11 +178,13 @@ TEST_CASE("judge_kidnap: frames without a reference are not judged") {
   const KidnapOutcome outcome = judge_kidnap(std::vector<PlayedFrame>{played(1.0F, true), played(0.0F, true)},
                                              std::vector<std::optional<SE3>>{std::nullopt, at(0.0F)});
   CHECK(outcome.num_wrong == 0);
+  CHECK(outcome.num_judged == 1);
   CHECK(outcome.num_frames == 2);
 }
 
 TEST_CASE("summarise_kidnaps: counts kidnaps and frames, and takes medians over the recovered") {
   KidnapOutcome good;
+  good.num_judged = 30;
   good.recovered = true;
   good.right_at_end = true;
   good.num_frames = 1;
@@ -191,10 +193,11 @@ TEST_CASE("summarise_kidnaps: counts kidnaps and frames, and takes medians over 
   slow.num_frames = 5;
   slow.num_wrong = 2;
   KidnapOutcome bad;
+  bad.num_judged = 30;
   bad.num_wrong = 3;
   bad.num_wrong_believed = 2;
   bad.num_wrong_fused = 1;
-  const KidnapSummary summary = summarise_kidnaps({good, slow, bad});
+  const KidnapSummary summary = summarise_kidnaps({good, slow, bad, KidnapOutcome()});  // the last could not be judged
   CHECK(summary.num_kidnaps == 3);
   CHECK(summary.num_recovered == 2);
   CHECK(summary.num_kidnaps_with_wrong == 2);

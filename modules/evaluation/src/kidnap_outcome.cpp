@@ -14,6 +14,7 @@ KidnapOutcome judge_kidnap(Span<const PlayedFrame> played, Span<const std::optio
     const PlayedFrame& frame = played[i];
     duration_ms += frame.duration_ms;
     if (!reference[i].has_value()) continue;
+    ++outcome.num_judged;
     const bool right =
         frame.world_from_camera.has_value() && kResumedThreshold.contains(pose_error(*frame.world_from_camera, *reference[i]));
     outcome.right_at_end = right;
@@ -35,6 +36,7 @@ KidnapSummary summarise_kidnaps(const std::vector<KidnapOutcome>& outcomes) {
   std::vector<double> frames;
   std::vector<double> durations_ms;
   for (const KidnapOutcome& outcome : outcomes) {
+    if (outcome.num_judged == 0) continue;
     ++summary.num_kidnaps;
     summary.num_right_at_end += outcome.right_at_end ? 1 : 0;
     summary.num_wrong += outcome.num_wrong;

@@ -87,6 +87,7 @@ inline constexpr PoseThreshold kResumedThreshold = kWrongThreshold;
 
 /// How a kidnap ended.
 struct KidnapOutcome {
+  int num_judged = 0;         ///< frames with a reference; without any, nothing can be said
   bool recovered = false;     ///< a right and believed pose came within the judged frames
   bool right_at_end = false;  ///< the last judged frame has a right pose
   int num_frames = 0;         ///< to recovery, that of recovery included: 1 is at once; 0 without one
@@ -102,7 +103,7 @@ struct KidnapOutcome {
 /// @pre Equal sizes.
 KidnapOutcome judge_kidnap(Span<const PlayedFrame> played, Span<const std::optional<SE3>> reference);
 
-/// Outcomes of one kind of kidnap.
+/// Outcomes of one kind of kidnap, of those that could be judged.
 struct KidnapSummary {
   int num_kidnaps = 0;
   int num_recovered = 0;
