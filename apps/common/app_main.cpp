@@ -42,7 +42,8 @@ int run_app(CLI::App& app, int argc, char** argv, const std::function<int()>& bo
     return kBug;
   }
   interrupt_requested = 0;
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, on_interrupt);
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_interrupt);
+  if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup means it
   try {
     return body();
   } catch (const Error& error) {

@@ -48,6 +48,7 @@ LiveRun::LiveRun(const LiveOptions& options, const LiveSettings& settings)
   status_ = source_->status();
   if (!options.record_folder.empty()) recording_ = std::make_unique<RecordingThread>(options.record_folder);
   view_ = std::make_unique<LiveView>(!options.headless, options.view_folder, options.view_every);
+  if (options.record_only) reader_ = std::make_unique<RecordingReader>(*source_, *recording_, options.num_frames);
 }
 
 int LiveRun::run() {
@@ -68,19 +69,19 @@ int LiveRun::run() {
 
 void LiveRun::loop() {
   since_start_ = Stopwatch();
+  FrameSource& frames = reader_ != nullptr ? static_cast<FrameSource&>(*reader_) : *source_;
   while (true) {
     press_scripted_keys();
     if (limit_is_reached()) return;
-    RgbdFrame frame;
-    const ReadStatus result = source_->read(frame);
+    const ReadStatus result = frames.read(next_frame_);
     if (result == ReadStatus::kEnd) {
       ended_by_ = "camera";
       return;
     }
     follow_camera();
     if (result == ReadStatus::kFrame) {
-      if (!paused_) take(frame);
-      frame_ = std::move(frame);
+      if (!paused_) take(next_frame_);
+      std::swap(frame_, next_frame_);
     }
     if (view_->window_is_due() || view_->file_is_due(num_taken_)) draw();
     obey(view_->take_key());
@@ -97,20 +98,25 @@ bool LiveRun::limit_is_reached() {
 
 /// Records and reconstructs a frame: the one exactly if the other, so that the recording replays to the same trajectory.
 void LiveRun::take(RgbdFrame& frame) {
-  if (recording_ != nullptr) {
-    if (session_ != nullptr) round_depth_as_recorded(frame.depth);
-    const bool recorded = recording_->add(frame);
-    const std::string error = recorded ? std::string() : recording_->progress().error;
-    if (!recorded && error.empty()) return;  // the disk is too slow: dropped, and counted
-    if (!error.empty()) say("recording has ended: " + error);
-  }
-  ++num_taken_;
+  const bool to_be_recorded = recording_ != nullptr && reader_ == nullptr;
+  if (to_be_recorded) round_depth_as_recorded(frame.depth);
+  const bool recorded = to_be_recorded && recording_->add(frame);
+  check_recording();
+  if (to_be_recorded && !recorded && !recording_failed_) return;  // the disk is too slow: dropped, and counted
+  num_taken_ = reader_ != nullptr ? reader_->num_taken() : num_taken_ + 1;
   if (session_ == nullptr) return;
   const FusionFrameResult result = session_->process(frame);
   monitor_->add(session_->pipeline(), result, event_);
   event_ = false;
   const std::string news = log_.add(frame.timestamp_s, result);
   if (!news.empty()) say(news);
+}
+
+void LiveRun::check_recording() {
+  if (recording_ == nullptr || recording_failed_) return;
+  const std::string error = recording_->progress().error;
+  recording_failed_ = !error.empty();
+  if (recording_failed_) say("recording has ended: " + error);
 }
 
 /// Tells what the camera does. After an unplug it may be anywhere, which is for the pipeline to find out, as it will in a replay.
@@ -135,6 +141,7 @@ void LiveRun::obey(int key) {
   if (key == 'h') show_help_ = !show_help_;
   if (key == ' ') {
     paused_ = !paused_;
+    if (reader_ != nullptr) reader_->set_paused(paused_);
     say(paused_ ? "paused" : "going on");
   }
   if (session_ == nullptr) return;
@@ -263,6 +270,7 @@ void LiveRun::save_reconstruction() {
 void LiveRun::save_all() {
   status_ = source_->status();  // before the camera runs on while files are written
   const OpenNIStatus status = status_;
+  reader_.reset();
   if (recording_ != nullptr) attempt(options_.record_folder, [&] { recording_->finish(); });
   if (session_ != nullptr) save_reconstruction();
   attempt(options_.json, [&] {

@@ -14,6 +14,7 @@
 #include "foothold/openni/openni_source.h"
 #include "live_view.h"
 #include "options.h"
+#include "recording_reader.h"
 #include "recording_thread.h"
 #include "run_log.h"
 
@@ -31,6 +32,7 @@ class LiveRun {
  private:
   void loop();
   void take(RgbdFrame& frame);
+  void check_recording();
   void follow_camera();
   void press_scripted_keys();
   void obey(int key);
@@ -60,9 +62,12 @@ class LiveRun {
   std::unique_ptr<LiveView> view_;
   std::unique_ptr<OpenNISource> source_;
   std::unique_ptr<RecordingThread> recording_;
+  std::unique_ptr<RecordingReader> reader_;  // only if frames are only recorded
   RunLog log_;
 
-  RgbdFrame frame_;  // the newest
+  RgbdFrame frame_;       // the newest
+  RgbdFrame next_frame_;  // being read; its memory is reused
+  bool recording_failed_ = false;
   std::int64_t num_taken_ = 0;
   OpenNIStatus status_;
   std::int64_t num_reopened_ = 0;

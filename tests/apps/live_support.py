@@ -8,6 +8,7 @@ import math
 import os
 import pathlib
 import shutil
+import signal
 import subprocess
 import threading
 import time
@@ -44,7 +45,10 @@ class LiveTest(app_support.AppTest):
 
     def start(self, *arguments):
         """Starts the app; ends it with the test at the latest."""
-        process = subprocess.Popen([self.app, *map(str, arguments)], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [self.app, *map(str, arguments)], cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+            preexec_fn=lambda: signal.signal(signal.SIGHUP, signal.SIG_DFL),  # the tests themselves may run under nohup
+        )  # fmt: skip
 
         def end():
             if process.poll() is None:

@@ -149,6 +149,18 @@ class EndTest(LiveTest):
         self.assertTrue((self.folder / "a.txt").exists())
         self.assertIn("out/a.ply", json.loads((self.folder / "a.json").read_text())["errors"][0])
 
+    def test_a_recording_that_fails_is_told_once_and_the_reconstruction_goes_on(self):
+        process = self.start(*MODE, "--record", "take", "--save-mesh", "a.ply", "--json", "a.json")
+        self.wait_for((self.folder / "take" / "frame-000004.depth.png").exists, process, "the fifth frame")
+        shutil.rmtree(self.folder / "take", ignore_errors=True)
+        self.wait_for_line(process, "recording has ended")
+        process.send_signal(signal.SIGINT)
+        _, log = process.communicate(timeout=live_support.PATIENCE_S)
+        self.assertEqual(process.returncode, app_support.USER_ERROR, log)
+        self.assertNotIn("recording has ended", log)
+        self.assertTrue((self.folder / "a.ply").exists())
+        self.assertIn("take", json.loads((self.folder / "a.json").read_text())["errors"][0])
+
     def test_without_a_single_frame_earlier_results_stay(self):
         self.plug_in("pattern:160x120", EVENTS="stall@0")
         for name in ["a.ply", "a.scene", "a.txt"]:

@@ -80,12 +80,23 @@ TEST_CASE("run_app: anything else that is thrown gives exit code 1") {
 
 TEST_CASE("run_app: the first Ctrl-C, hang-up or request to end only raises a flag") {
   const int signal = GENERATE(SIGINT, SIGTERM, SIGHUP);
+  std::signal(signal, SIG_DFL);  // the tests themselves may run under nohup
   const Outcome outcome = run({"--value", "1"}, [&] {
     CHECK_FALSE(interrupted());
     std::raise(signal);
     return interrupted() ? kInterrupted : kSuccess;
   });
   CHECK(outcome.exit_code == kInterrupted);
+}
+
+TEST_CASE("run_app: a hang-up that is ignored, as under nohup, stays so") {
+  std::signal(SIGHUP, SIG_IGN);
+  const Outcome outcome = run({"--value", "1"}, [] {
+    std::raise(SIGHUP);
+    return interrupted() ? kInterrupted : kSuccess;
+  });
+  std::signal(SIGHUP, SIG_DFL);
+  CHECK(outcome.exit_code == kSuccess);
 }
 
 TEST_CASE("ProgressBar: elsewhere than on a terminal, a line every tenth of the way") {

@@ -6,6 +6,7 @@
 
 #include "foothold/io/sequence.h"
 #include "io_fixtures.h"
+#include "reconstruct_live/recording_reader.h"
 #include "support/catch.h"
 
 namespace foothold::live {
@@ -71,6 +72,64 @@ TEST_CASE("RecordingThread: a disk that fails ends the recording, with the reaso
   CHECK_FALSE(recording.add(large_frame(2)));
   CHECK_THAT(recording.progress().error, Contains(temp / "take"));
   CHECK_THAT(error_of([&] { recording.finish(); }), Contains(temp / "take"));
+}
+
+namespace {
+
+/// Delivers so many small frames, a time-out between them, and then an end or a failure.
+class ListSource : public FrameSource {
+ public:
+  ListSource(int num_frames, bool fails) : num_frames_(num_frames), fails_(fails) {}
+  ReadStatus read(RgbdFrame& frame) override {
+    if (num_calls_++ % 2 == 1) return ReadStatus::kTimedOut;
+    if (num_calls_ / 2 < num_frames_) {
+      frame = small_frame(num_calls_ / 2);
+      return ReadStatus::kFrame;
+    }
+    if (fails_) throw DeviceError("the camera is broken");
+    return ReadStatus::kEnd;
+  }
+
+ private:
+  int num_frames_;
+  bool fails_;
+  int num_calls_ = 0;
+};
+
+/// Reads until the reader has nothing more. @return The last frame's index.
+std::int64_t read_to_the_end(RecordingReader& reader) {
+  RgbdFrame frame;
+  std::int64_t last = -1;
+  for (ReadStatus status = ReadStatus::kTimedOut; status != ReadStatus::kEnd; status = reader.read(frame)) {
+    if (status == ReadStatus::kFrame) last = frame.index;
+  }
+  return last;
+}
+
+}  // namespace
+
+TEST_CASE("RecordingReader: every frame is recorded, whether anybody looks on or not, up to the limit") {
+  const TempFolder temp;
+  const int limit = GENERATE(0, 7);
+  RecordingThread recording(temp / "take");
+  ListSource source(20, false);
+  {
+    RecordingReader reader(source, recording, limit);
+    CHECK(read_to_the_end(reader) == 19);
+    CHECK(reader.num_taken() == (limit == 0 ? 20 : limit));
+  }
+  recording.finish();
+  CHECK(recording.progress().num_dropped == 0);
+  CHECK(open_sequence(temp / "take", Context())->num_frames() == (limit == 0 ? 20 : limit));
+}
+
+TEST_CASE("RecordingReader: hands on the failure of its source, after its frames") {
+  const TempFolder temp;
+  RecordingThread recording(temp / "take");
+  ListSource source(3, true);
+  RecordingReader reader(source, recording, 0);
+  CHECK_THAT(error_of<DeviceError>([&] { read_to_the_end(reader); }), Contains("the camera is broken"));
+  CHECK(reader.num_taken() == 3);
 }
 
 }  // namespace foothold::live
