@@ -41,7 +41,8 @@ def tiles(results):
             shown.append((f"{timing['relocalise_ms']['median']:.1f} ms", f"to relocalise, {timing['train_ms']['median']:.1f} ms to learn a frame; the paper: {paper.TIMINGS['forest'][1]:g} and {paper.TIMINGS['forest'][0]:g} ms on a GPU"))
     for suite, document in results.suites("novel"):
         ratio = document["area_ratios"].get("forest / ferns")
-        shown.append((f"{ratio:.1f}×" if ratio else "ferns: 0", f"the area under the novelty curve of random ferns, {SUITES[suite].lower()}"))
+        if ratio:
+            shown.append((f"{ratio:.1f}×", f"the area under the novelty curve of random ferns, {SUITES[suite].lower()}"))
     for suite, document in results.suites("confidence"):
         method = document["methods"].get("forest")
         if method:

@@ -74,7 +74,7 @@ def strip_chart(columns, label):
     """columns: (scene, [(name, percent, style)]). One row of dots per scene."""
     height = 60 + 30 * len(columns)
     left = 30 + max(len(scene) for scene, _ in columns) * 7
-    chart = Chart(Axis(0, 100), Axis(0, len(columns)), width=440, height=height, left=left, label=label)
+    chart = Chart(Axis(0, 100), Axis(0, len(columns)), width=400, height=height, left=left, label=label)
     chart.draw_axes(x_ticks=[0, 25, 50, 75, 100], y_ticks=[], x_title="% within 5 cm and 5°")
     for index, (scene, dots) in enumerate(columns):
         y = len(columns) - index - 0.5
@@ -158,14 +158,14 @@ def loss(results):
 
 
 def bin_position(name):
-    return 55 if name == "rest" else int(name.split("cm")[0])
+    return 57 if name == "rest" else int(name.split("cm")[0])
 
 
 def novelty_chart(document, suite):
-    chart = Chart(Axis(2, 58), Axis(0, 100), width=520, height=290, right=112, label=f"Recall against novelty, {SUITES[suite]}")
-    ticks = [5, 10, 20, 30, 40, 50, 55]
+    chart = Chart(Axis(2, 60), Axis(0, 100), width=420, height=260, right=84, label=f"Recall against novelty, {SUITES[suite]}")
+    ticks = [10, 20, 30, 40, 50, 57]
     chart.draw_axes(x_ticks=ticks, y_ticks=[0, 25, 50, 75, 100], x_title="distance to the nearest learnt view [cm and °]",
-                    y_format=percent_tick, x_format=lambda v: "more" if v == 55 else f"{v:g}")
+                    y_format=percent_tick, x_format=lambda v: "more" if v == 57 else f"{v:g}")
     for name, method in reversed(list(document["methods"].items())):
         bins = [(bin_position(b["bin"]), b) for b in method["novelty"] if b["num_frames"] >= MIN_FRAMES_SHOWN]
         if not bins:
@@ -181,10 +181,10 @@ def novelty_chart(document, suite):
 def frames_chart(document):
     bins = next(iter(document["methods"].values()))["novelty"]
     most = max(max(b["num_frames"] for b in bins), 1)
-    chart = Chart(Axis(2, 58), Axis(0, most), width=520, height=92, right=112, top=18, bottom=8, label="Frames in each bin")
+    chart = Chart(Axis(2, 60), Axis(0, most), width=420, height=86, right=84, top=18, bottom=8, label="Frames in each bin")
     for b in bins:
         x = chart.px(bin_position(b["bin"]))
-        chart.bar(x - 9, chart.py(b["num_frames"]), 18, chart.height - chart.bottom - chart.py(b["num_frames"]), "faint")
+        chart.bar(x - 8, chart.py(b["num_frames"]), 16, chart.height - chart.bottom - chart.py(b["num_frames"]), "faint")
         chart.text(x, chart.py(b["num_frames"]) - 4, b["num_frames"])
     chart.text(chart.width - chart.right + 8, chart.height - chart.bottom, "frames", "start")
     return chart.svg()

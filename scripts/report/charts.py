@@ -135,7 +135,7 @@ class Chart:
     def svg(self):
         self.place_end_labels()
         self.end_labels = []
-        return (f'<svg viewBox="0 0 {self.width} {self.height}" role="img" aria-label="{escape(self.label)}" style="max-width:{self.width * 1.25:.0f}px">'
+        return (f'<svg viewBox="0 0 {self.width} {self.height}" role="img" aria-label="{escape(self.label)}" style="max-width:{self.width * 1.1:.0f}px">'
                 + "".join(self.parts) + "</svg>")
 
 
@@ -159,8 +159,8 @@ def table(header, rows, row_classes=None, caption=""):
     for number, row in enumerate(rows):
         kind = f' class="{row_classes[number]}"' if row_classes and row_classes[number] else ""
         body.append(f"<tr{kind}>" + "".join(cell("th" if i == 0 else "td", content, i) for i, content in enumerate(row)) + "</tr>")
-    head = f"<caption>{caption}</caption>" if caption else ""
-    return f'<div class="scroll"><table>{head}<thead>{"".join(lines)}</thead><tbody>{"".join(body)}</tbody></table></div>'
+    head = f'<p class="note above">{caption}</p>' if caption else ""
+    return f'{head}<div class="scroll"><table><thead>{"".join(lines)}</thead><tbody>{"".join(body)}</tbody></table></div>'
 
 
 def heat(percent):
