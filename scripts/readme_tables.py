@@ -20,7 +20,7 @@ from load import BadResults, Results  # noqa: E402  (the path comes first)
 BEGIN = "<!-- results: written by scripts/readme_tables.py, do not edit -->"
 END = "<!-- results: end -->"
 STAMP = re.compile(r"^Commit [0-9a-f]{7,40}( with changes)?, .+, \d+ hardware threads?, seed \d+\.$")
-PROTOCOL_COLUMNS = ["recording", "method", "found %", "first success", "median error", "learn, ms", "relocalise, ms", "scene, MB"]
+PROTOCOL_COLUMNS = ["recording", "method", "found %", "first success", "median error", "learn, CPU ms", "relocalise, CPU ms", "scene, MB"]
 ROOM_COLUMNS = ["forest trained on", "method"]  # then a column per room, and the average
 ROOM_LAST_COLUMN = "average"
 
@@ -43,7 +43,7 @@ def protocol_rows(results):
                 translation = numbers["median_translation_error_m"]
                 error = "–" if translation is None else f"{1000 * translation:.1f} mm, {numbers['median_rotation_error_deg']:.2f}°"
                 rows.append([name + words, method, f"{100 * numbers['recall']['5cm_5deg']:.1f}", "–" if first is None else f"frame {first}", error,
-                             f"{numbers['train_ms']['median']:.1f}", f"{numbers['relocalise_ms']['median']:.1f}", f"{numbers['state_mb']:.1f}"])
+                             f"{numbers['train_cpu_ms']['median']:.1f}", f"{numbers['relocalise_cpu_ms']['median']:.1f}", f"{numbers['state_mb']:.1f}"])
     return rows
 
 

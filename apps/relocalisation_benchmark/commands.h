@@ -28,5 +28,7 @@ Command add_time_command(CLI::App& app);
 Command add_confidence_command(CLI::App& app);
 /// "failures": pictures of wrong answers. Reference: [Cavallari2017], supplementary material.
 Command add_failures_command(CLI::App& app);
+/// "kidnap": the closed loop of tracker, relocaliser and map.
+Command add_kidnap_command(CLI::App& app);
 
 }  // namespace foothold::benchmark

@@ -17,6 +17,13 @@ def spread(ms, digits=2):
     return "–" if ms["median"] is None else f"{ms['median']:.{digits}f} <small>/ {ms['p95']:.{digits}f}</small>"
 
 
+def clock(document):
+    """Keys of durations: processor time where it is the whole work, since it does not depend on what else the machine does."""
+    settings = document["settings"]
+    kind = "_cpu_ms" if settings["device"] == "cpu" and settings["threads"] == 1 else "_ms"
+    return "train" + kind, "relocalise" + kind
+
+
 def stages_of(timing, call):
     return [(stage.split("/", 1)[1], ms["median"]) for stage, ms in timing["stages_ms"].items() if stage.startswith(call + "/") and ms["median"] is not None]
 
@@ -44,13 +51,13 @@ def stage_chart(methods, call):
 STAGE_COLOURS = ["#1f6fa8", "#4d9bd1", "#8fc3e6", "#0b8a6a", "#6cc4a8", "#b7a44d", "#9aa4b1"]
 
 
-def sweep_chart(sweep):
+def sweep_chart(sweep, train_key, relocalise_key):
     points = sweep["points"]
     values = [p["value"] for p in points]
-    highest = max(p["timing"]["relocalise_ms"]["p95"] for p in points)
+    highest = max(p["timing"][relocalise_key]["p95"] for p in points)
     chart = Chart(Axis(values[0], values[-1], log=True), Axis(0, highest * 1.05), right=88, bottom=26, height=210, label=f"Cost against {sweep['quantity']}")
     chart.draw_axes(x_ticks=values, y_format=lambda v: f"{v:g}")
-    for key, name, style in (("train_ms", "learn", "s-forest-icp"), ("relocalise_ms", "relocalise", "s-forest")):
+    for key, name, style in ((train_key, "learn", "s-forest-icp"), (relocalise_key, "relocalise", "s-forest")):
         chart.band([(p["value"], p["timing"][key]["median"], p["timing"][key]["p95"]) for p in points], style)
         chart.line([(p["value"], p["timing"][key]["median"]) for p in points], style)
         titles = [f"{p['value']:g}: {p['timing'][key]['median']:.2f} ms, {100 * p['recall']['5cm_5deg']:.1f} % found" for p in points]
@@ -64,23 +71,24 @@ def timing(results):
     parts = []
     for suite, document in results.suites("time"):
         methods = list(document["methods"].items())
+        train_key, relocalise_key = clock(document)
         rows, kinds = [], []
         for name, method in methods:
             t = method["timing"]
-            rows.append([escape(name), spread(t["train_ms"]), spread(t["relocalise_ms"]), f"{100 * method['recall']['5cm_5deg']:.1f}", f"{method['state_mb']:.1f}"])
+            rows.append([escape(name), spread(t[train_key]), spread(t[relocalise_key]), f"{100 * method['recall']['5cm_5deg']:.1f}", f"{method['state_mb']:.1f}"])
             kinds.append("")
         for name, key in (("the paper's forest, on a GPU", "forest"), ("the paper's random ferns", "ferns")):
             rows.append([name, f"{paper.TIMINGS[key][0]:g}", f"{paper.TIMINGS[key][1]:g}", "–", "–"])
             kinds.append("paper")
         threads = document["settings"]["threads"]
         where = document["settings"]["device"].upper() + (f", {threads} thread" + ("s" if threads != 1 else "") if threads else "")
-        caption = f"{where}; {document['settings']['train_frames']} frames learnt, {document['settings']['test_frames']} tested; median / 95th percentile"
+        caption = f"{where}; {document['settings']['train_frames']} frames learnt, {document['settings']['test_frames']} tested; median / 95th percentile" + (" of processor time" if "cpu" in train_key else "")
         parts.append(table(["method", "learn a frame, ms", "relocalise, ms", "found %", "scene, MB"], rows, kinds, caption))
-        charts = "".join(figure(stage_chart([m for m in methods if stages_of(m[1]["timing"], call)], call), "", title)
+        charts = "".join(figure(stage_chart([m for m in methods if stages_of(m[1]["timing"], call)], call), "Wall clock, sum of the stages' medians.", title)
                          for call, title in (("train", "Learning a frame, by stage"), ("relocalise", "Relocalising, by stage")))
         parts.append(f'<div class="grid2">{charts}</div>')
         for method in dict.fromkeys(s["method"] for s in document["sweeps"]):
-            sweeps = "".join(sweep_chart(s) for s in document["sweeps"] if s["method"] == method)
+            sweeps = "".join(sweep_chart(s, train_key, relocalise_key) for s in document["sweeps"] if s["method"] == method)
             parts.append(f"<h3>How the cost of {escape(method)} grows</h3><div class=\"grid2\">{sweeps}</div>")
     return "<p>What one frame costs while the camera is tracked (learning), and once it is lost (relocalising). The paper's times are those of an NVIDIA GeForce Titan Black.</p>" + "".join(parts)
 
@@ -139,6 +147,29 @@ def confidence(results):
             "is false. <em>False accept</em>: believed, but off by more than 10 cm or 10°. The paper does not report this.</p>" + "".join(parts))
 
 
+KIDNAP_CAPTION = ("Each mark is one kidnap, in the order of the recording: filled if the camera was found again within the judged frames, hollow if not; a cross means that a wrong pose was believed "
+                  "at least once. Small marks: places that had not been seen before.")
+
+
+def kidnap_strips(results, suite):
+    """A row of marks per scene and method."""
+    rows = [(scene, name, m["kidnaps"]) for scene, document in results.parts(suite, "kidnap") for name, m in document["methods"].items()]
+    most = max(len(kidnaps) for _, _, kidnaps in rows)
+    left = 20 + max(len(f"{scene} {name}") for scene, name, _ in rows) * 7
+    chart = Chart(Axis(0, most), Axis(0, len(rows)), width=left + 18 * most + 20, height=14 + 28 * len(rows), left=left, top=4, bottom=6, label="Outcome of every kidnap")
+    for index, (scene, name, kidnaps) in enumerate(rows):
+        y = len(rows) - index - 0.5
+        chart.text(left - 10, chart.py(y) + 4, f"{scene} {name}", "end", "value")
+        for number, kidnap_ in enumerate(kidnaps):
+            found = "found after " + str(kidnap_["frames_to_recovery"]) + " frames" if kidnap_["recovered"] else "not found"
+            title = f"{kidnap_['kind']}, frame {kidnap_['from']} to {kidnap_['to']}: {found}, {kidnap_['num_wrong_believed']} wrong poses believed"
+            chart.dots([(number + 0.5, y)], series_class(name) + ("" if kidnap_["recovered"] else " hollow"), 6 if kidnap_["seen_before"] else 3.5, [title])
+            if kidnap_["num_wrong_believed"] > 0:
+                x, py = chart.px(number + 0.5), chart.py(y)
+                chart.add(f'<path d="M{x - 5:.1f} {py - 5:.1f}l10 10m-10 0l10 -10" class="line s-wrong"/>')
+    return chart.svg()
+
+
 def kidnap(results):
     parts = []
     for suite in SUITES:
@@ -147,10 +178,11 @@ def kidnap(results):
             for name, m in document["methods"].items():
                 frames = "–" if m["median_frames_to_recovery"] is None else f"{m['median_frames_to_recovery']:g}"
                 ms = m["timing"]["median_ms_to_recovery"]
-                rows.append([f"{escape(scene)} <small>{escape(name)}</small>", f"{m['num_recovered']} of {m['num_kidnaps']}", frames, "–" if ms is None else f"{ms:.0f}", str(m["num_false_resumes"]),
-                             str(m["num_wrong_fusions"])])
+                rows.append([f"{escape(scene)} <small>{escape(name)}</small>", f"{m['num_recovered']} of {m['num_kidnaps']}", f"{m['num_seen_before_recovered']} of {m['num_seen_before']}",
+                             frames, "–" if ms is None else f"{ms:.0f}", str(m["num_false_resumes"]), str(m["num_wrong_fusions"])])
         if rows:
-            parts.append(f"<h3>{SUITES[suite]}</h3>" + table(["scene", "resumed rightly", "frames, median", "ms, median", "resumed wrongly", "frames fused wrongly"], rows))
+            header = ["scene", "resumed rightly", "where seen before", "frames, median", "ms, median", "resumed wrongly", "frames fused wrongly"]
+            parts.append(f"<h3>{SUITES[suite]}</h3>" + table(header, rows) + figure(kidnap_strips(results, suite), KIDNAP_CAPTION))
     if not parts:
         return ""
     return ("<p>The closed loop: tracker, gate, relocaliser and map together. Frames are removed from the recording, so that the camera is suddenly elsewhere, in a place that was mapped before. "

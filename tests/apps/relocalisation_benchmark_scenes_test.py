@@ -176,6 +176,33 @@ class FailuresTest(SceneTest):
         self.check_refused("failures", *self.scene, "--pictures", "nowhere/failure", says=["nowhere", "--pictures"])
 
 
+class KidnapTest(SceneTest):
+    arguments = ["kidnap", "--sequence", "synthetic:kitchen?frames=60&width=320&height=240", "--removed", 1, "--removed-length", 8, "--teleports", 1, "--judged", 8]
+
+    def test_every_kidnap_is_judged_once(self):
+        results = self.run_json(*self.arguments, "--method", "forest,ferns", "--csv", "kidnaps.csv")
+        self.assertEqual(list(results["methods"]), ["forest", "ferns"])
+        for method in results["methods"].values():
+            self.assertEqual((method["num_kidnaps"], len(method["kidnaps"]), method["num_frames"]), (2, 2, 60))
+            self.assertEqual(sorted(k["kind"] for k in method["kidnaps"]), ["removed", "teleport"])
+            self.assertEqual(method["num_recovered"], sum(k["recovered"] for k in method["kidnaps"]))
+            self.assertEqual(method["num_recovered"], sum(kind["num_recovered"] for kind in method["kinds"].values()))
+            self.assertTrue(next(k for k in method["kidnaps"] if k["kind"] == "teleport")["seen_before"])
+            for kidnap in method["kidnaps"]:
+                self.assertEqual(kidnap["frames_to_recovery"] is not None, kidnap["recovered"])
+        self.assertEqual(len((self.folder / "kidnaps.csv").read_text().splitlines()), 1 + 4)
+
+    def test_equal_options_give_equal_outcomes(self):
+        runs = [self.run_json(*self.arguments, "--method", "forest", "--threads", threads) for threads in (1, 2)]
+        self.assertEqual(without_timing(runs[0]), without_timing(runs[1]))
+
+    def test_wrong_arguments(self):
+        self.check_refused("kidnap", "--sequence", KITCHEN, says="expected")
+        self.check_refused("kidnap", "--sequence", KITCHEN, "--teleports", -1, says="num_teleports")
+        self.check_refused(*self.arguments, "--method", "none", says=["none", "forest"])
+        self.check_refused("kidnap", says="--sequence")
+
+
 class WrongSceneTest(SceneTest):
     """Nothing runs, nothing is written, and the message says what is missing."""
 

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "kidnap_runs.h"
+
+#include <utility>
+
+#include "foothold/api/frame_uploader.h"
+#include "foothold/base/contract.h"
+#include "foothold/base/error.h"
+#include "foothold/evaluation/novelty.h"
+#include "foothold/relocalisation/forest_relocaliser.h"
+
+namespace foothold::benchmark {
+namespace {
+
+std::unique_ptr<Relocaliser> make_relocaliser(const Context& context, const Method& method, const MethodInputs& inputs) {
+  if (method.name == "ferns") return std::make_unique<KeyframeRelocaliser>(context, inputs.settings.ferns);
+  return std::make_unique<ForestRelocaliser>(context, *inputs.forest,
+                                             method.name == "paper" ? inputs.settings.paper : inputs.settings.forest);
+}
+
+std::unique_ptr<Relocaliser> copy_of(const Relocaliser& relocaliser) {
+  if (const auto* forest = dynamic_cast<const ForestRelocaliser*>(&relocaliser)) return std::make_unique<ForestRelocaliser>(*forest);
+  return std::make_unique<KeyframeRelocaliser>(dynamic_cast<const KeyframeRelocaliser&>(relocaliser));
+}
+
+/// A pipeline with its relocaliser. Copies are independent.
+class Reconstruction {
+ public:
+  Reconstruction(const Context& context, std::unique_ptr<Relocaliser> relocaliser)
+      : relocaliser_(std::move(relocaliser)),
+        pipeline_(std::make_unique<FusionPipeline>(context, FusionSettings{}, relocaliser_.get())),
+        uploader_(context),
+        context_(context) {}
+  Reconstruction(const Reconstruction& other)
+      : relocaliser_(copy_of(*other.relocaliser_)),
+        pipeline_(std::make_unique<FusionPipeline>(*other.pipeline_, relocaliser_.get())),
+        uploader_(other.context_),
+        context_(other.context_) {}
+  Reconstruction& operator=(const Reconstruction&) = delete;
+
+  void start_at(const SE3& world_from_camera) { pipeline_->start_at(world_from_camera); }
+  PlayedFrame process(const RgbdFrame& frame) {
+    const FusionFrameResult result = pipeline_->process(uploader_.upload(frame.view()));
+    const bool believed = result.world_from_camera.has_value() && result.quality == TrackingQuality::kGood;
+    return {result.world_from_camera, believed, result.fused, result.total_ms};
+  }
+
+ private:
+  std::unique_ptr<Relocaliser> relocaliser_;
+  std::unique_ptr<FusionPipeline> pipeline_;
+  FrameUploader uploader_;
+  Context context_;
+};
+
+/// A kidnap that was played, to be judged once the undisturbed run has come as far.
+struct Branch {
+  std::size_t kidnap = 0;
+  std::vector<int> frames;
+  std::vector<PlayedFrame> played;
+};
+
+class KidnapPlayer {
+ public:
+  KidnapPlayer(const KidnapInput& input, const std::function<void()>& advance) : input_(input), advance_(advance) {}
+
+  RgbdFrame load(int frame) const {
+    advance_();
+    RgbdFrame loaded = input_.sequence->load(input_.indices[static_cast<std::size_t>(frame)]);
+    if (loaded.world_from_camera.has_value()) return loaded;
+    throw FileError(input_.sequence->name() + ": frame " + std::to_string(loaded.index) + " has no pose; expected its true pose");
+  }
+
+  /// Shows a kidnap to a copy.
+  Branch branch_off(const Reconstruction& reconstruction, std::size_t kidnap, Span<const SE3> seen, bool& was_seen) const {
+    Reconstruction copy(reconstruction);
+    Branch branch;
+    branch.kidnap = kidnap;
+    for (const PlayStep& step : independent_steps(input_.kidnaps[kidnap], static_cast<int>(input_.indices.size()), input_.options)) {
+      const RgbdFrame frame = load(step.frame);
+      if (branch.frames.empty()) was_seen = novelty_bin_of(*frame.world_from_camera, seen) < novelty_limits().size();
+      branch.frames.push_back(step.frame);
+      branch.played.push_back(copy.process(frame));
+    }
+    return branch;
+  }
+
+ private:
+  const KidnapInput& input_;
+  const std::function<void()>& advance_;
+};
+
+}  // namespace
+
+bool can_be_kidnapped(const Method& method) { return method.name == "forest" || method.name == "paper" || method.name == "ferns"; }
+
+int count_frames(const KidnapInput& input) {
+  std::size_t count = input.indices.size();
+  for (const Kidnap& kidnap : input.kidnaps)
+    count += independent_steps(kidnap, static_cast<int>(input.indices.size()), input.options).size();
+  return static_cast<int>(count);
+}
+
+KidnapRun run_kidnaps(const Context& context, const Method& method, const MethodInputs& inputs, const KidnapInput& input,
+                      const std::function<void()>& advance) {
+  FOOTHOLD_EXPECTS(can_be_kidnapped(method) && input.options.num_blackouts == 0);
+  const KidnapPlayer player(input, advance);
+  Reconstruction reconstruction(context, make_relocaliser(context, method, inputs));
+  KidnapRun run;
+  run.method = method.name;
+  for (const Kidnap& kidnap : input.kidnaps) run.kidnaps.push_back({kidnap, false, {}});
+  std::vector<Branch> branches;
+  std::vector<std::optional<SE3>> poses;  // undisturbed
+  std::vector<SE3> seen;
+  for (int frame_number = 0; frame_number < static_cast<int>(input.indices.size()); ++frame_number) {
+    for (std::size_t i = 0; i < input.kidnaps.size(); ++i) {
+      if (input.kidnaps[i].from == frame_number) branches.push_back(player.branch_off(reconstruction, i, seen, run.kidnaps[i].was_seen));
+    }
+    const RgbdFrame frame = player.load(frame_number);
+    if (frame_number == 0) reconstruction.start_at(*frame.world_from_camera);
+    poses.push_back(reconstruction.process(frame).world_from_camera);
+    seen.push_back(*frame.world_from_camera);
+    run.num_tracked_frames += poses.back().has_value() ? 1 : 0;
+  }
+  run.num_frames = static_cast<int>(input.indices.size());
+  for (const Branch& branch : branches) {
+    std::vector<std::optional<SE3>> reference;
+    for (const int frame : branch.frames) reference.push_back(poses[static_cast<std::size_t>(frame)]);
+    run.kidnaps[branch.kidnap].outcome = judge_kidnap(branch.played, reference);
+  }
+  return run;
+}
+
+}  // namespace foothold::benchmark
