@@ -129,7 +129,7 @@ main() { # read to its end before it runs, so that the file may change meanwhile
     echo sequence2 >"scenes/$room/TestSplit.txt"
   done
 
-  forests=(--forest data-free=random)
+  forests=(--forest default --forest data-free=random)
   for room in "${trained[@]}"; do
     once "forests/$room.stamp" "training a forest on $room" "$bin/train_forest" --sequence "scenes/$room/seq-01" --out "forests/$room.forest" --resume \
       --stride "$training_stride" --examples-per-frame 250 --depth 13 --seed "$seed" --set rolled_copies=1 --set variance_weight=0 --set agreement_weight=1
@@ -142,13 +142,13 @@ main() { # read to its end before it runs, so that the file may change meanwhile
     novel_scenes+=(--scene "$room=scenes/$room/seq-01,scenes/$room/seq-03,scenes/$room/seq-02")
   done
 
-  methods=forest,ferns forest_methods=forest
+  methods=forest,ferns forest_methods=forest,forest+icp novel_methods=forest,forest+icp,forest+icp+rank,ferns
   experiment rooms.adapt "adapting forests to the rooms" adapt "${room_scenes[@]}" "${forests[@]}" --method "$forest_methods"
   for room in "${rooms[@]}"; do
     experiment "rooms.loss.$room" "losing track in $room" loss --sequence "scenes/$room/seq-02" --method "$methods" --csv "results/rooms.loss.$room.csv"
   done
-  experiment rooms.novel "novel views of the rooms" novel "${novel_scenes[@]}" --method "$methods"
-  experiment rooms.confidence "what confidence is worth" confidence "${novel_scenes[@]}" --stride "$confidence_stride" --method "$methods"
+  experiment rooms.novel "novel views of the rooms" novel "${novel_scenes[@]}" --method "$novel_methods"
+  experiment rooms.confidence "what confidence is worth" confidence "${novel_scenes[@]}" --stride "$confidence_stride" --method "$novel_methods"
   experiment rooms.time "timing" time --sequence "scenes/${rooms[0]}/seq-01" --train-frames "$timed_training" --test-frames "$timed_tests" --method "$methods,paper" --threads 1
   for room in "${failing[@]}"; do
     experiment "rooms.failures.$room" "looking into failures in $room" failures --scene "$room=scenes/$room" --count "$failures" --pictures "results/rooms.failures.$room"
@@ -167,7 +167,7 @@ main() { # read to its end before it runs, so that the file may change meanwhile
     sparse=()
     if $quick; then sparse=(--stride "$recording_stride"); fi
     experiment 7scenes.adapt "adapting forests to 7-Scenes" adapt "${scenes[@]}" "${forests[@]}" --method "$forest_methods" "${sparse[@]}"
-    experiment 7scenes.novel "novel views of 7-Scenes" novel "${scenes[@]}" --method "$methods" "${sparse[@]}"
+    experiment 7scenes.novel "novel views of 7-Scenes" novel "${scenes[@]}" --method "$novel_methods" "${sparse[@]}"
     experiment 7scenes.confidence "what confidence is worth on 7-Scenes" confidence "${scenes[@]}" --stride "$recording_stride" --method "$methods"
   fi
 
@@ -188,7 +188,7 @@ main() { # read to its end before it runs, so that the file may change meanwhile
   done
   if [[ ${#halves[@]} -gt 0 ]]; then
     experiment recordings.adapt "adapting forests to recordings" adapt "${halves[@]}" "${forests[@]}" --method "$forest_methods" --stride "$recording_stride"
-    experiment recordings.novel "novel views of recordings" novel "${halves[@]}" --method "$methods" --stride "$recording_stride"
+    experiment recordings.novel "novel views of recordings" novel "${halves[@]}" --method "$novel_methods" --stride "$recording_stride"
     experiment recordings.confidence "what confidence is worth on recordings" confidence "${strangers[@]}" --method "$methods" --stride "$recording_stride"
   fi
 
