@@ -92,6 +92,11 @@ class CameraTest(LiveTest):
     def test_a_driver_that_hangs_is_told_and_does_not_hang_the_program(self):
         self.plug_in("pattern:160x120", DELAYS="open=60")
         self.check_refused(*MODE, "--set", "camera.open_timeout_ms=500", says=["has not answered", "Unplug the camera"])
+        for call in ["stop", "close"]:
+            self.plug_in("pattern:160x120", DELAYS=f"{call}=300")
+            result = self.check_success(*MODE, "--frames", 3, "--save-mesh", "a.ply", "--set", "camera.close_timeout_ms=500")
+            self.assertIn("has not answered", result.stderr)
+            self.assertTrue((self.folder / "a.ply").exists())
 
 
 class RecordTest(LiveTest):
