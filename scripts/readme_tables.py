@@ -64,9 +64,11 @@ def block(results, commit):
     machine = results.machine()
     threads = machine["num_threads"]
     seed = rooms["settings"]["seed"]
+    frames = sorted({run["num_tested"] for run in rooms["runs"]})
+    tested = f"{frames[0]} frames" if len(frames) == 1 else f"{frames[0]} to {frames[-1]} frames"
     return [f"Commit {commit}, {machine['processor'] or 'unknown processor'}, {threads} hardware thread{'s' if threads != 1 else ''}, seed {seed}.", "",
             "Tracking lost at every frame of a recording, one thread; found within 5 cm and 5 deg:", "", *table(PROTOCOL_COLUMNS, recordings, 2), "",
-            "Forests adapted to rendered rooms that they were not trained on, % of test frames within 5 cm and 5 deg:", "", *room_table(rooms)]
+            f"Forests adapted to rendered rooms, {tested} tested in each, % within 5 cm and 5 deg:", "", *room_table(rooms)]
 
 
 def split(text):
