@@ -82,8 +82,10 @@ def strip_chart(columns, label):
         chart.text(left - 8, chart.py(y) + 4, scene, "end", "value")
         chart.add(f'<line x1="{chart.px(0):.1f}" x2="{chart.px(100):.1f}" y1="{chart.py(y):.1f}" y2="{chart.py(y):.1f}" class="grid"/>')
         chart.bar(chart.px(low), chart.py(y) - 3, chart.px(high) - chart.px(low), 6, "faint")
-        for name, value, style in dots:
-            chart.dots([(value, y)], style, 4.2, [f"{name}: {value:.1f} %"])
+        styles = list(dict.fromkeys(style for _, _, style in dots))
+        for name, value, style in dots:  # methods side by side, so that equal ones do not hide each other
+            shift = 0.2 * ((len(styles) - 1) / 2 - styles.index(style))
+            chart.dots([(value, y + shift)], style, 3.8, [f"{name}: {value:.1f} %"])
     return chart.svg()
 
 
@@ -162,7 +164,7 @@ def bin_position(name):
 
 
 def novelty_chart(document, suite):
-    chart = Chart(Axis(2, 60), Axis(0, 100), width=420, height=260, right=84, label=f"Recall against novelty, {SUITES[suite]}")
+    chart = Chart(Axis(2, 60), Axis(0, 100), width=440, height=260, right=120, label=f"Recall against novelty, {SUITES[suite]}")
     ticks = [10, 20, 30, 40, 50, 57]
     chart.draw_axes(x_ticks=ticks, y_ticks=[0, 25, 50, 75, 100], x_title="distance to the nearest learnt view [cm and °]",
                     y_format=percent_tick, x_format=lambda v: "more" if v == 57 else f"{v:g}")
@@ -181,7 +183,7 @@ def novelty_chart(document, suite):
 def frames_chart(document):
     bins = next(iter(document["methods"].values()))["novelty"]
     most = max(max(b["num_frames"] for b in bins), 1)
-    chart = Chart(Axis(2, 60), Axis(0, most), width=420, height=86, right=84, top=18, bottom=8, label="Frames in each bin")
+    chart = Chart(Axis(2, 60), Axis(0, most), width=440, height=86, right=120, top=18, bottom=8, label="Frames in each bin")
     for b in bins:
         x = chart.px(bin_position(b["bin"]))
         chart.bar(x - 8, chart.py(b["num_frames"]), 16, chart.height - chart.bottom - chart.py(b["num_frames"]), "faint")

@@ -99,7 +99,7 @@ def roc_chart(document, suite):
     for method in document["methods"].values():
         most = max(p["recall"] for p in method["curve"])
         highest = max(highest, 1.3 * min(p["false_accept_rate"] for p in method["curve"] if p["recall"] == most))
-    chart = Chart(Axis(0, 100 * highest), Axis(0, 100), width=390, height=260, right=78, label=f"Recall against false accepts, {SUITES[suite]}")
+    chart = Chart(Axis(0, 100 * highest), Axis(0, 100), width=420, height=260, right=120, label=f"Recall against false accepts, {SUITES[suite]}")
     chart.draw_axes(y_ticks=[0, 25, 50, 75, 100], x_title="false accepts, % of all views", y_format=percent_tick)
     for name, method in reversed(list(document["methods"].items())):
         shown = [p for p in method["curve"] if p["false_accept_rate"] <= highest]
@@ -112,7 +112,7 @@ def roc_chart(document, suite):
 
 
 def calibration_chart(document, suite):
-    chart = Chart(Axis(0, 1), Axis(0, 100), width=390, height=260, right=78, label=f"Calibration, {SUITES[suite]}")
+    chart = Chart(Axis(0, 1), Axis(0, 100), width=420, height=260, right=120, label=f"Calibration, {SUITES[suite]}")
     chart.draw_axes(x_ticks=[0, 0.25, 0.5, 0.75, 1], y_ticks=[0, 25, 50, 75, 100], x_title="confidence", y_format=percent_tick)
     chart.add(f'<line x1="{chart.px(0):.1f}" y1="{chart.py(0):.1f}" x2="{chart.px(1):.1f}" y2="{chart.py(100):.1f}" class="mark"/>')
     for name, method in reversed(list(document["methods"].items())):
