@@ -58,6 +58,9 @@ const Values kTuned = {
     {"pose.first_alignment_radius_m", "0.06"},
     {"pose.last_alignment_radius_m", "0.04"},
     {"pose.ranking_points", "2048"},
+    {"pose.projection_points", "8192"},
+    {"pose.projection_iterations", "8"},
+    {"pose.projection_distance_m", "0.06"},
     {"pose.num_candidates", "16"},
     {"pose.seed", "42"},
     {"acceptance_threshold", "0.9"},
@@ -87,6 +90,7 @@ const Values kPaperDiffers = {
     {"pose.final_iterations", "10"},
     {"pose.alignment_iterations", "0"},
     {"pose.ranking_points", "0"},
+    {"pose.projection_points", "0"},
 };
 
 const Values kRandomForest = {

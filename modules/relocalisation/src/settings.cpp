@@ -33,6 +33,7 @@ ForestRelocaliserSettings paper_preset() {
   settings.pose.final_iterations = 10;
   settings.pose.alignment_iterations = 0;
   settings.pose.ranking_points = 0;
+  settings.pose.projection_points = 0;
   return settings;
 }
 

@@ -17,26 +17,22 @@ FOOTHOLD_HD inline Eigen::Vector3f normal_of(const SurfaceSample& surface) {
 }
 FOOTHOLD_HD inline bool has_normal(const SurfaceSample& surface) { return normal_of(surface).squaredNorm() > 0.0F; }
 
-/// Estimates a sample's surface from the averaged image around it.
-struct EstimateSurface {
+/// Estimates surfaces from the averaged image.
+struct SurfaceEstimator {
   FeatureImageView image;
   Intrinsics intrinsics;  ///< of the averaged image
-  int downscale;
-  int reach;  ///< neighbours' distance [px of the averaged image]
-  const SampledPixel* sampled;
-  SurfaceSample* surfaces;
+  int reach;              ///< neighbours' distance [px of the averaged image]
 
-  FOOTHOLD_HD void operator()(std::size_t i) const {
+  /// The surface at a pixel of the averaged image; without a normal where it is broken or unmeasured, or at the image's border.
+  FOOTHOLD_HD SurfaceSample surface_at(int u, int v) const {
     SurfaceSample surface{};
-    const int u = sampled[i].u / downscale;
-    const int v = sampled[i].v / downscale;
     Eigen::Vector3f point;
     Eigen::Vector3f left;
     Eigen::Vector3f right;
     Eigen::Vector3f above;
     Eigen::Vector3f below;
-    if (sampled[i].depth_m > 0.0F && point_at(u, v, point) && point_at(u - reach, v, left) && point_at(u + reach, v, right) &&
-        point_at(u, v - reach, above) && point_at(u, v + reach, below)) {
+    if (point_at(u, v, point) && point_at(u - reach, v, left) && point_at(u + reach, v, right) && point_at(u, v - reach, above) &&
+        point_at(u, v + reach, below)) {
       const Eigen::Vector3f normal = cross_product(below - above, right - left);
       const float length = normal.norm();
       const float bend_m = kMaxBend * point.z() * point.z();
@@ -47,7 +43,7 @@ struct EstimateSurface {
         for (int k = 0; k < 3; ++k) surface.normal_camera[k] = normal[k] / length;
       }
     }
-    surfaces[i] = surface;
+    return surface;
   }
 
  private:
@@ -61,6 +57,30 @@ struct EstimateSurface {
     return true;
   }
 };
+
+/// Estimates each sample's surface.
+struct EstimateSurface {
+  SurfaceEstimator estimator;
+  int downscale;
+  const SampledPixel* sampled;
+  SurfaceSample* surfaces;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    surfaces[i] = sampled[i].depth_m > 0.0F ? estimator.surface_at(sampled[i].u / downscale, sampled[i].v / downscale) : SurfaceSample{};
+  }
+};
+
+/// Adds to the sums of solve_damped(): a point q of a surface with normal n is to move by residual_m along n; all in the scene's frame.
+FOOTHOLD_HD FOOTHOLD_INLINE void add_point_to_plane(const Eigen::Vector3f& q, const Eigen::Vector3f& n, float residual_m, float weight,
+                                                    float* sums) {
+  const Eigen::Vector3f moment = cross_product(q, n);
+  const float j[6] = {moment.x(), moment.y(), moment.z(), n.x(), n.y(), n.z()};
+  int next = 0;
+  for (int a = 0; a < 6; ++a) {
+    for (int b = a; b < 6; ++b) sums[next++] += weight * j[a] * j[b];
+  }
+  for (int a = 0; a < 6; ++a) sums[kNumHessian + a] -= weight * j[a] * residual_m;
+}
 
 /// Starts the alignment of the best candidate.
 struct BeginAlignment {
@@ -186,15 +206,7 @@ struct AlignWithPoints {
     }
     if (sum.weight < kMinWeight) return;
     const float residual_m = sum.offset_mm / sum.weight * 1e-3F;  // along the normal, from the sample to the remembered surface
-    const Eigen::Vector3f q = pose.rotation * point_of(surface);
-    const Eigen::Vector3f n = pose.rotation * normal_of(surface);
-    const Eigen::Vector3f moment = cross_product(q, n);
-    const float j[6] = {moment.x(), moment.y(), moment.z(), n.x(), n.y(), n.z()};
-    int next = 0;
-    for (int a = 0; a < 6; ++a) {
-      for (int b = a; b < 6; ++b) sums[next++] += j[a] * j[b];
-    }
-    for (int a = 0; a < 6; ++a) sums[kNumHessian + a] -= j[a] * residual_m;
+    add_point_to_plane(pose.rotation * point_of(surface), pose.rotation * normal_of(surface), residual_m, 1.0F, sums);
     sums[kNumSupported] += 1.0F;
     const float distance = std::fabs(residual_m) / radius_m;
     sums[kFit] += distance < 1.0F ? 1.0F - distance : 0.0F;

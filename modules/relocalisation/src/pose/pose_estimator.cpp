@@ -54,7 +54,7 @@ PoseEstimator::PoseEstimator(const Context& context, const PoseEstimatorSettings
   buffers_.nearest.resize(refined * pool_size);
   buffers_.candidates.resize(static_cast<std::size_t>(std::min(settings.num_candidates, settings.num_hypotheses)));
   const std::vector<float> not_aligned(buffers_.candidates.size(), 1.0F);
-  buffers_.remembered.resize(static_cast<std::size_t>(settings.ranking_points));
+  buffers_.remembered.resize(static_cast<std::size_t>(std::max(settings.ranking_points, settings.projection_points)));
   buffers_.evidence.resize(num_hypotheses);
   buffers_.evidence.clear_to_zero();
   buffers_.misfits.assign(Span<const float>(not_aligned));
@@ -83,7 +83,7 @@ std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const
       const ScopedStage stage(context, "relocalise/ransac");
       Algorithms::preempt(problem, buffers_);
     }
-    if (settings_.ranking_points > 0) {
+    if (!buffers_.remembered.empty()) {
       const ScopedStage stage(context, "relocalise/rank");
       Algorithms::rank(problem, buffers_);
     }

@@ -7,6 +7,7 @@
 #include "pose/hypothesis_kernels.h"
 #include "pose/pool_kernels.h"
 #include "pose/pose_estimator.h"
+#include "pose/project_kernels.h"
 #include "pose/rank_kernels.h"
 #include "pose/refine_kernels.h"
 #include "pose/score_kernels.h"
@@ -157,12 +158,13 @@ void PoseAlgorithms<Executor>::rank(const PoseProblem& problem, PoseEstimator::B
   set.executor().for_each(
       buffers.remembered.size(),
       DrawRememberedPoint{problem.reservoirs, derive_seed(problem.settings.seed, kRankingStream), buffers.remembered.data()});
+  if (problem.settings.ranking_points == 0) return;
   judge(problem, buffers, set, num_candidates);
   set.executor().for_each(num_candidates, MakeEvidenceKey{buffers.evidence.data(), buffers.energies.data(), buffers.order.data()});
   set.executor().sort(Span<std::uint64_t>(buffers.order.data(), num_candidates), buffers.sort_buffer, 32, 64);
 }
 
-/// Aligns the best candidate with the remembered points. The pool's leaves are those of fill_pool().
+/// Aligns the best candidate with the points that its leaves remember. The pool's leaves are those of fill_pool().
 template <class Executor>
 void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffers, const HypothesisSet<Executor>& set) {
   constexpr int kNeighbourDistancePx = 8;  // of a 640 px wide frame, each way
@@ -172,8 +174,9 @@ void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffe
   const int reach = neighbour_distance > downscale ? neighbour_distance / downscale : 1;
   const int num_samples = settings.alignment_samples < settings.pool_size ? settings.alignment_samples : settings.pool_size;
   const Intrinsics intrinsics = problem.frame.calibration.depth.scaled(1.0F / static_cast<float>(downscale));
-  set.executor().for_each(static_cast<std::size_t>(num_samples), EstimateSurface{problem.image.view(), intrinsics, downscale, reach,
-                                                                                 buffers.sampled.data(), buffers.surfaces.data()});
+  const SurfaceEstimator estimator{problem.image.view(), intrinsics, reach};
+  set.executor().for_each(static_cast<std::size_t>(num_samples),
+                          EstimateSurface{estimator, downscale, buffers.sampled.data(), buffers.surfaces.data()});
   AlignmentState* const state = buffers.alignment.data();
   set.executor().for_each(1, BeginAlignment{buffers.order.data(), buffers.hypotheses.data(), state});
   const auto num_trees = static_cast<std::size_t>(problem.forest.num_trees);
@@ -189,6 +192,11 @@ void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffe
                       buffers.surfaces.data(), 1000.0F * radius_m, state, buffers.offsets.data()});
     set.executor().template for_each_team<NoScratch>(
         1, AlignWithPoints<Executor>{problem.forest.num_trees, buffers.surfaces.data(), buffers.offsets.data(), num_used, radius_m, state});
+  }
+  for (int i = 0; i < settings.projection_iterations && settings.projection_points > 0; ++i) {
+    const float distance_m = settings.projection_distance_m * (2 * i < settings.projection_iterations ? 2.0F : 1.0F);
+    set.executor().template for_each_team<NoScratch>(
+        1, AlignByProjection<Executor>{estimator, buffers.remembered.data(), settings.projection_points, distance_m, state});
   }
   set.executor().for_each(1, EndAlignment{buffers.order.data(), state, buffers.hypotheses.data(), buffers.misfits.data()});
 }

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Aligning a pose with points of the whole scene that project into the frame, whatever leaves they lie in: what ICP against a model does,
+/// with the reservoirs as the model. Not in the paper. Reference: point-to-plane ICP [Chen1992] with projective association [Blais1995].
+#pragma once
+
+#include "pose/align_kernels.h"
+#include "pose/rank_kernels.h"
+
+namespace foothold {
+
+/// One step by one team: the surface at the pixel that each remembered point projects to is drawn along its normal to that point.
+template <class Executor>
+struct AlignByProjection {
+  SurfaceEstimator estimator;
+  const RememberedPoint* points;
+  int num_points;
+  float distance_m;  ///< points further from the surface count nothing
+  AlignmentState* state;
+
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t) const {
+    if (state->ended != 0) return;
+    const SE3 pose = state->scene_from_camera;
+    float sums[kNumSums] = {};
+    for (int i = team.lane(); i < num_points; i += team.size()) {
+      if (points[i].valid != 0) add_point(pose, points[i], sums);
+    }
+    team.sum_all(sums);
+    if (team.lane() != 0) return;
+    float twist[6];
+    if (sums[kNumSupported] >= kMinSupported && solve_damped(sums, kDamping, twist)) {
+      state->scene_from_camera = perturbed(pose, twist);
+    } else {
+      state->ended = 1;
+    }
+  }
+
+ private:
+  static constexpr int kNumSupported = kNumHessian + 6;  ///< points on a surface of the frame
+  static constexpr int kNumSums = kNumSupported + 1;
+  static constexpr float kMinSupported = 100.0F;  ///< points below which the alignment is not trusted
+  static constexpr float kDamping = 1e-4F;
+  static constexpr float kNearestM = 0.3F;
+
+  FOOTHOLD_HD FOOTHOLD_INLINE void add_point(const SE3& pose, const RememberedPoint& point, float (&sums)[kNumSums]) const {
+    const Eigen::Vector3f point_scene(point.point_scene[0], point.point_scene[1], point.point_scene[2]);
+    const Eigen::Vector3f point_camera = pose.rotation.transpose() * (point_scene - pose.translation);
+    if (!(point_camera.z() > kNearestM)) return;
+    const Eigen::Vector2f pixel = estimator.intrinsics.project(point_camera);
+    const auto u = static_cast<int>(std::floor(pixel.x() + 0.5F));
+    const auto v = static_cast<int>(std::floor(pixel.y() + 0.5F));
+    if (u < 0 || v < 0 || u >= estimator.image.width || v >= estimator.image.height) return;
+    const float gap_m = static_cast<float>(estimator.image.pixels[v * estimator.image.width + u].depth_mm()) * 1e-3F - point_camera.z();
+    if (!(std::fabs(gap_m) < kSlantMargin * distance_m)) return;  // before the costly part
+    const SurfaceSample surface = estimator.surface_at(u, v);
+    if (!has_normal(surface)) return;
+    const float residual_m = normal_of(surface).dot(point_camera - point_of(surface));
+    const float closeness = 1.0F - residual_m * residual_m / (distance_m * distance_m);
+    if (!(closeness > 0.0F)) return;
+    add_point_to_plane(pose * point_of(surface), pose.rotation * normal_of(surface), residual_m, closeness * closeness, sums);
+    sums[kNumSupported] += 1.0F;
+  }
+
+  static constexpr float kSlantMargin = 2.0F;  ///< depths differ by more than the distance on slanted surfaces
+};
+
+}  // namespace foothold

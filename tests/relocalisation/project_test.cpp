@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "pose/project_kernels.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "foothold/base/exec/cpu_executor.h"
+#include "support/catch.h"
+#include "support/random_seed.h"
+
+namespace foothold {
+namespace {
+
+constexpr int kWidth = 160;
+constexpr int kHeight = 120;
+constexpr Intrinsics kCamera{146.0F, 146.0F, 80.0F, 60.0F};
+
+/// The depth at a pixel, from a camera that looks into a corner: two walls and a floor.
+float corner_depth_m(int u, int v) {
+  const float x = (static_cast<float>(u) - kCamera.cx) / kCamera.fx;
+  const float y = (static_cast<float>(v) - kCamera.cy) / kCamera.fy;
+  const float front = 3.0F / (1.0F + 0.5F * x);  // slanted
+  const float side = x > 0.0F ? 0.7F / x : 1e9F;
+  const float floor = y > 0.0F ? 0.5F / y : 1e9F;
+  return std::min({front, side, floor});
+}
+
+std::vector<FeaturePixel> corner() {
+  std::vector<FeaturePixel> pixels(static_cast<std::size_t>(kWidth * kHeight));
+  for (int v = 0; v < kHeight; ++v) {
+    for (int u = 0; u < kWidth; ++u) {
+      pixels[static_cast<std::size_t>(v * kWidth + u)].channels[0] = static_cast<std::int16_t>(1000.0F * corner_depth_m(u, v) + 0.5F);
+    }
+  }
+  return pixels;
+}
+
+RememberedPoint remembered(const Eigen::Vector3f& p) { return {{p.x(), p.y(), p.z()}, {100, 100, 100}, 1}; }
+
+/// What a scene remembers of the corner as seen from a pose.
+std::vector<RememberedPoint> points_of_corner(Random& random, int num_points, const SE3& scene_from_camera) {
+  std::vector<RememberedPoint> points;
+  for (int i = 0; i < num_points; ++i) {
+    const auto u = static_cast<int>(random.below(kWidth));
+    const auto v = static_cast<int>(random.below(kHeight));
+    const Eigen::Vector3f p = kCamera.back_project(static_cast<float>(u), static_cast<float>(v), corner_depth_m(u, v));
+    points.push_back(remembered(scene_from_camera * p));
+  }
+  return points;
+}
+
+SE3 random_pose(Random& random, float rotation_rad, float translation_m) {
+  Tangent6 twist;
+  for (int k = 0; k < 3; ++k) twist[k] = random.uniform(-rotation_rad, rotation_rad);
+  for (int k = 3; k < 6; ++k) twist[k] = random.uniform(-translation_m, translation_m);
+  return se3_exp(twist);
+}
+
+AlignmentState align(const std::vector<RememberedPoint>& points, const SE3& start, int num_steps) {
+  const std::vector<FeaturePixel> pixels = corner();
+  const SurfaceEstimator estimator{{pixels.data(), kWidth, kHeight, 1.0F}, kCamera, 2};
+  AlignmentState state{start, 1.0F, 0};
+  NoScratch scratch;
+  for (int i = 0; i < num_steps; ++i) {
+    const AlignByProjection<CpuExecutor> step{estimator, points.data(), static_cast<int>(points.size()), 0.1F, &state};
+    step(CpuTeam{}, scratch, 0);
+  }
+  return state;
+}
+
+TEST_CASE("AlignByProjection: a pose centimetres off comes back, whatever the scene's frame, and outliers do not matter") {
+  Random random = test::test_random();
+  for (int trial = 0; trial < 5; ++trial) {
+    const SE3 truth = random_pose(random, 2.0F, 3.0F);
+    std::vector<RememberedPoint> points = points_of_corner(random, 2000, truth);
+    for (int i = 0; i < 400; ++i) {  // half a metre in front of the surface
+      const auto u = static_cast<int>(random.below(kWidth));
+      const auto v = static_cast<int>(random.below(kHeight));
+      points.push_back(remembered(truth * kCamera.back_project(static_cast<float>(u), static_cast<float>(v), corner_depth_m(u, v) * 0.7F)));
+    }
+    const AlignmentState state = align(points, truth * random_pose(random, 0.01F, 0.02F), 10);
+    REQUIRE(state.ended == 0);
+    REQUIRE(translation_distance_m(state.scene_from_camera, truth) < 0.002F);
+    REQUIRE(rotation_distance_rad(state.scene_from_camera, truth) < 0.002F);
+  }
+}
+
+TEST_CASE("AlignByProjection: too few points in view leave the pose as it is") {
+  Random random = test::test_random();
+  const SE3 start = random_pose(random, 0.01F, 0.02F);
+  for (const int num_points : {0, 50}) {
+    const AlignmentState state = align(points_of_corner(random, num_points, SE3{}), start, 3);
+    REQUIRE(state.ended == 1);
+    REQUIRE(translation_distance_m(state.scene_from_camera, start) == 0.0F);
+  }
+}
+
+TEST_CASE("AlignByProjection: points that are not valid, behind the camera or on broken surfaces count nothing") {
+  Random random = test::test_random();
+  std::vector<RememberedPoint> points = points_of_corner(random, 500, SE3{});
+  for (RememberedPoint& point : points) point.valid = 0;
+  for (int i = 0; i < 500; ++i) points.push_back(remembered({random.uniform(-1.0F, 1.0F), 0.0F, -2.0F}));
+  REQUIRE(align(points, SE3{}, 1).ended == 1);
+}
+
+}  // namespace
+}  // namespace foothold
