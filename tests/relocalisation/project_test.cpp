@@ -80,7 +80,6 @@ TEST_CASE("AlignByProjection: a pose centimetres off comes back, whatever the sc
       points.push_back(remembered(truth * kCamera.back_project(static_cast<float>(u), static_cast<float>(v), corner_depth_m(u, v) * 0.7F)));
     }
     const AlignmentState state = align(points, truth * random_pose(random, 0.01F, 0.02F), 10);
-    REQUIRE(state.ended == 0);
     REQUIRE(translation_distance_m(state.scene_from_camera, truth) < 0.002F);
     REQUIRE(rotation_distance_rad(state.scene_from_camera, truth) < 0.002F);
   }
@@ -91,7 +90,7 @@ TEST_CASE("AlignByProjection: too few points in view leave the pose as it is") {
   const SE3 start = random_pose(random, 0.01F, 0.02F);
   for (const int num_points : {0, 50}) {
     const AlignmentState state = align(points_of_corner(random, num_points, SE3{}), start, 3);
-    REQUIRE(state.ended == 1);
+    REQUIRE(state.ended == 0);  // the leaves' own points may do better
     REQUIRE(translation_distance_m(state.scene_from_camera, start) == 0.0F);
   }
 }
@@ -101,7 +100,8 @@ TEST_CASE("AlignByProjection: points that are not valid, behind the camera or on
   std::vector<RememberedPoint> points = points_of_corner(random, 500, SE3{});
   for (RememberedPoint& point : points) point.valid = 0;
   for (int i = 0; i < 500; ++i) points.push_back(remembered({random.uniform(-1.0F, 1.0F), 0.0F, -2.0F}));
-  REQUIRE(align(points, SE3{}, 1).ended == 1);
+  const SE3 start = random_pose(random, 0.01F, 0.02F);
+  REQUIRE(translation_distance_m(align(points, start, 1).scene_from_camera, start) == 0.0F);
 }
 
 }  // namespace

@@ -164,7 +164,8 @@ void PoseAlgorithms<Executor>::rank(const PoseProblem& problem, PoseEstimator::B
   set.executor().sort(Span<std::uint64_t>(buffers.order.data(), num_candidates), buffers.sort_buffer, 32, 64);
 }
 
-/// Aligns the best candidate with the points that its leaves remember. The pool's leaves are those of fill_pool().
+/// Aligns the best candidate, first with points of the whole scene where they project into the frame, then, more finely, with the points
+/// that its leaves remember. The pool's leaves are those of fill_pool().
 template <class Executor>
 void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffers, const HypothesisSet<Executor>& set) {
   constexpr int kNeighbourDistancePx = 8;  // of a 640 px wide frame, each way
@@ -180,6 +181,11 @@ void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffe
   AlignmentState* const state = buffers.alignment.data();
   set.executor().for_each(1, BeginAlignment{buffers.order.data(), buffers.hypotheses.data(), state});
   const auto num_trees = static_cast<std::size_t>(problem.forest.num_trees);
+  for (int i = 0; i < settings.projection_iterations && settings.projection_points > 0; ++i) {
+    const float distance_m = settings.projection_distance_m * (2 * i < settings.projection_iterations ? 2.0F : 1.0F);
+    set.executor().template for_each_team<NoScratch>(
+        1, AlignByProjection<Executor>{estimator, buffers.remembered.data(), settings.projection_points, distance_m, state});
+  }
   for (int i = 0; i < settings.alignment_iterations; ++i) {
     const float progress =
         settings.alignment_iterations > 1 ? static_cast<float>(i) / static_cast<float>(settings.alignment_iterations - 1) : 1.0F;
@@ -192,11 +198,6 @@ void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffe
                       buffers.surfaces.data(), 1000.0F * radius_m, state, buffers.offsets.data()});
     set.executor().template for_each_team<NoScratch>(
         1, AlignWithPoints<Executor>{problem.forest.num_trees, buffers.surfaces.data(), buffers.offsets.data(), num_used, radius_m, state});
-  }
-  for (int i = 0; i < settings.projection_iterations && settings.projection_points > 0; ++i) {
-    const float distance_m = settings.projection_distance_m * (2 * i < settings.projection_iterations ? 2.0F : 1.0F);
-    set.executor().template for_each_team<NoScratch>(
-        1, AlignByProjection<Executor>{estimator, buffers.remembered.data(), settings.projection_points, distance_m, state});
   }
   set.executor().for_each(1, EndAlignment{buffers.order.data(), state, buffers.hypotheses.data(), buffers.misfits.data()});
 }

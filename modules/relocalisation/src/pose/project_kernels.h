@@ -19,7 +19,6 @@ struct AlignByProjection {
   AlignmentState* state;
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t) const {
-    if (state->ended != 0) return;
     const SE3 pose = state->scene_from_camera;
     float sums[kNumSums] = {};
     for (int i = team.lane(); i < num_points; i += team.size()) {
@@ -28,17 +27,13 @@ struct AlignByProjection {
     team.sum_all(sums);
     if (team.lane() != 0) return;
     float twist[6];
-    if (sums[kNumSupported] >= kMinSupported && solve_damped(sums, kDamping, twist)) {
-      state->scene_from_camera = perturbed(pose, twist);
-    } else {
-      state->ended = 1;
-    }
+    if (sums[kNumSupported] >= kMinSupported && solve_damped(sums, kDamping, twist)) state->scene_from_camera = perturbed(pose, twist);
   }
 
  private:
   static constexpr int kNumSupported = kNumHessian + 6;  ///< points on a surface of the frame
   static constexpr int kNumSums = kNumSupported + 1;
-  static constexpr float kMinSupported = 100.0F;  ///< points below which the alignment is not trusted
+  static constexpr float kMinSupported = 100.0F;  ///< points below which the pose stays as it is
   static constexpr float kDamping = 1e-4F;
   static constexpr float kNearestM = 0.3F;
 
