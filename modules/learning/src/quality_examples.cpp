@@ -9,6 +9,7 @@
 #include "foothold/base/random.h"
 #include "foothold/fusion/tracking_quality.h"
 #include "spoilt_frame.h"
+#include "worn_camera.h"
 
 namespace foothold {
 
@@ -78,13 +79,19 @@ Verdict verdict_of(Spoilage spoilage) {
   return Verdict::kWrong;
 }
 
+/// How bad a recording is, of three grades: 0 for none of what settings allow, 1 for all of it.
+float grade_of(int group) { return 0.5F * static_cast<float>(group % 3); }
+
 class Collector {
  public:
-  Collector(const Context& context, const FusionSettings& fusion, const QualityExampleSettings& settings, int group,
+  Collector(const Context& context, const FusionSettings& fusion, const QualityExampleSettings& settings, int group, Random random,
             QualityExamples& examples)
       : fusion_(fusion),
         settings_(settings),
         group_(group),
+        grade_(grade_of(group)),
+        camera_(grade_ * settings.wear, random),
+        drift_(grade_ * settings.drift_m, grade_ * settings.drift_deg, random),
         examples_(examples),
         volume_(context, fusion.volume),
         raycaster_(context, fusion.raycaster),
@@ -96,11 +103,22 @@ class Collector {
 
   bool has_map() const { return !mapped_.empty(); }
 
+  /// Takes a frame of the map's recording as the camera and its tracker would have seen it.
+  void prepare_mapped(RgbdFrame& frame, int frame_index, Random& random) {
+    camera_.wear(frame, random);
+    frame.world_from_camera = drift_.apply(*frame.world_from_camera, frame_index);
+  }
+
   void fuse(const RgbdFrame& frame, Random& random) {
-    const auto scale = static_cast<float>(group_ % 3);
-    volume_.integrate(frame.view(), perturb(*frame.world_from_camera,
-                                            {2.0F * scale * settings_.map_noise_deg, 2.0F * scale * settings_.map_noise_m}, random));
+    const StartKind noise = {4.0F * grade_ * settings_.map_noise_deg, 4.0F * grade_ * settings_.map_noise_m};
+    volume_.integrate(frame.view(), perturb(*frame.world_from_camera, noise, random));
     mapped_.push_back(*frame.world_from_camera);
+  }
+
+  /// Takes a frame of another recording by the same camera.
+  void prepare_other(RgbdFrame& frame, Random& random) {
+    camera_.wear(frame, random);
+    add_strangers(frame, grade_ * settings_.strangers, random);
   }
 
   /// Tries a frame of the map's world.
@@ -184,8 +202,10 @@ class Collector {
     const SE3& truth = *frame.world_from_camera;
     const float distance_m = translation_distance_m(found, truth);
     const float angle_deg = rotation_distance_rad(found, truth) * kDegPerRad;
-    const bool near = distance_m < settings_.right_m && angle_deg < settings_.right_deg;
-    const bool far = distance_m > settings_.wrong_m || angle_deg > settings_.wrong_deg;
+    const float drift_m = grade_ * settings_.drift_m;
+    const float drift_deg = grade_ * settings_.drift_deg;
+    const bool near = distance_m < settings_.right_m + drift_m && angle_deg < settings_.right_deg + drift_deg;
+    const bool far = distance_m > settings_.wrong_m + drift_m || angle_deg > settings_.wrong_deg + drift_deg;
     const bool right = verdict == Verdict::kByError && near;
     if (right || far || verdict == Verdict::kWrong) examples.push_back({std::move(values), right, distance_m, angle_deg, group_});
   }
@@ -193,6 +213,9 @@ class Collector {
   const FusionSettings& fusion_;
   const QualityExampleSettings& settings_;
   int group_;
+  float grade_;
+  WornCamera camera_;
+  PoseDrift drift_;
   QualityExamples& examples_;
   TsdfVolume volume_;
   Raycaster raycaster_;
@@ -219,29 +242,35 @@ void collect_quality_examples(const Context& context, const QualityRecording& re
   FOOTHOLD_EXPECTS(recording.mapped != nullptr);
   settings.validate();
   fusion.validate();
-  Collector collector(context, fusion, settings, recording.group, examples);
+  const std::uint64_t seed = derive_seed(settings.seed, static_cast<std::uint64_t>(recording.group));
+  constexpr std::uint64_t kCameraStream = 3;  // after those of the three kinds of frames
+  Collector collector(context, fusion, settings, recording.group, Random(seed, kCameraStream), examples);
   int num_done = 0;
   // Goes through the frames with a true pose; false if it was stopped.
   const auto each = [&](const Sequence* sequence, int stride, std::uint64_t stream, const auto& take) {
     for (int i = 0; sequence != nullptr && i < sequence->num_frames(); i += stride) {
-      Random random(derive_seed(settings.seed, static_cast<std::uint64_t>(recording.group)),
-                    derive_seed(stream, static_cast<std::uint64_t>(i)));
+      Random random(seed, derive_seed(stream, static_cast<std::uint64_t>(i)));
       RgbdFrame frame = sequence->load(i);
-      if (frame.world_from_camera) take(std::move(frame), random, i / stride);
+      if (frame.world_from_camera) take(std::move(frame), random, i);
       if (progress && !progress(++num_done)) return false;
     }
     return true;
   };
-  const bool mapped = each(recording.mapped, settings.frame_stride, 0, [&](RgbdFrame frame, Random& random, int number) {
-    if (collector.has_map() && number % settings.try_stride == 0) collector.try_frame(frame, random);
+  const bool mapped = each(recording.mapped, settings.frame_stride, 0, [&](RgbdFrame frame, Random& random, int index) {
+    collector.prepare_mapped(frame, index, random);
+    if (collector.has_map() && index / settings.frame_stride % settings.try_stride == 0) collector.try_frame(frame, random);
     collector.fuse(frame, random);
   });
   if (!mapped || !collector.has_map()) return;
-  const bool viewed = each(recording.views, settings.view_stride, 1,
-                           [&](RgbdFrame frame, Random& random, int) { collector.try_frame(std::move(frame), random); });
+  const bool viewed = each(recording.views, settings.view_stride, 1, [&](RgbdFrame frame, Random& random, int) {
+    collector.prepare_other(frame, random);
+    collector.try_frame(std::move(frame), random);
+  });
   if (!viewed) return;
-  each(recording.foreign, settings.foreign_stride, 2,
-       [&](RgbdFrame frame, Random& random, int) { collector.try_foreign(std::move(frame), random); });
+  each(recording.foreign, settings.foreign_stride, 2, [&](RgbdFrame frame, Random& random, int) {
+    collector.prepare_other(frame, random);
+    collector.try_foreign(std::move(frame), random);
+  });
 }
 
 }  // namespace foothold

@@ -34,6 +34,14 @@ struct QualityExampleSettings {
   /// and every third with twice as much.
   float map_noise_m = 0.003F;
   float map_noise_deg = 0.15F;
+  /// Wear of the camera: shifted colour, distorted depth, exposure that adjusts itself, blur. 1 is an old Kinect; every third recording has
+  /// none, and every third half as much.
+  float wear = 1.0F;
+  /// Largest of the things that are in views but not in the map, as a part of the image's width; likewise.
+  float strangers = 0.35F;
+  /// Slow drift of the poses with which frames are fused, likewise. Results may be off by as much more.
+  float drift_m = 0.015F;
+  float drift_deg = 0.6F;
   /// A result nearer to the truth than this is right.
   float right_m = 0.02F;
   float right_deg = 1.5F;
@@ -55,6 +63,10 @@ struct QualityExampleSettings {
     v(&S::spoilt_part, "spoilt_part", "Part of the frames that are spoilt.", Range{0.0, 1.0});
     v(&S::map_noise_m, "map_noise_m", "Noise of the fused poses [m].", Range{0.0, 1.0});
     v(&S::map_noise_deg, "map_noise_deg", "Noise of the fused poses [deg].", Range{0.0, 90.0});
+    v(&S::wear, "wear", "Wear of the camera, 1 for that of an old Kinect.", Range{0.0, 10.0});
+    v(&S::strangers, "strangers", "Largest of the things that are not in the map, as a part of the image's width.", Range{0.0, 1.0});
+    v(&S::drift_m, "drift_m", "Drift of the fused poses [m].", Range{0.0, 1.0});
+    v(&S::drift_deg, "drift_deg", "Drift of the fused poses [deg].", Range{0.0, 90.0});
     v(&S::right_m, "right_m", "Results nearer to the truth are right [m].", Range{1e-4, 1.0});
     v(&S::right_deg, "right_deg", "Results nearer to the truth are right [deg].", Range{1e-3, 90.0});
     v(&S::wrong_m, "wrong_m", "Results further off are wrong [m].", Range{1e-4, 10.0});
