@@ -45,7 +45,7 @@ struct Options {
   std::vector<std::string> test_views;
   std::string out_folder = ".";
   bool save_examples = false;
-  std::string examples_folder;
+  std::vector<std::string> examples_folders;
   std::string settings_file;
   std::vector<std::string> assignments;
   DeviceOptions device;
@@ -204,16 +204,35 @@ std::vector<Task> list_tasks(const GateSettings& settings) {
           {"pose_acceptance", {acceptance.begin(), acceptance.end()}, settings.acceptance, {}, {}}};
 }
 
-/// Fills in the examples, from recordings or from a folder, and says where they come from. False if interrupted.
-bool gather(const Options& options, const GateSettings& settings, std::vector<Task>& tasks, std::vector<std::string>& origin) {
-  if (!options.examples_folder.empty()) {
-    const std::filesystem::path folder(options.examples_folder);
+/// Appends examples to others, as of further recordings.
+void append_groups(std::vector<ClassifierExample>& all, std::vector<ClassifierExample> more, int first_group) {
+  for (ClassifierExample& example : more) {
+    example.group += first_group;
+    all.push_back(std::move(example));
+  }
+}
+
+/// Reads what --save-examples wrote into several folders. @throws FileError
+void load_examples(const std::vector<std::string>& folders, std::vector<Task>& tasks, std::vector<std::string>& origin) {
+  constexpr int kMostGroups = 10000;  // of a folder
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const std::filesystem::path folder(folders[i]);
+    const int first_group = static_cast<int>(i) * kMostGroups;
     for (Task& task : tasks) {
-      task.examples = read_csv(folder / (task.name + ".csv"), task.features);
+      append_groups(task.examples, read_csv(folder / (task.name + ".csv"), task.features), first_group);
       const std::filesystem::path unseen = folder / (task.name + "_test.csv");
-      if (std::filesystem::exists(unseen)) task.unseen = read_csv(unseen, task.features);
+      if (std::filesystem::exists(unseen)) append_groups(task.unseen, read_csv(unseen, task.features), first_group);
     }
-    origin = read_lines(folder / "provenance.txt");
+    for (const std::string& line : read_lines(folder / "provenance.txt")) {
+      if (std::find(origin.begin(), origin.end(), line) == origin.end()) origin.push_back(line);
+    }
+  }
+}
+
+/// Fills in the examples, from recordings or from folders, and says where they come from. False if interrupted.
+bool gather(const Options& options, const GateSettings& settings, std::vector<Task>& tasks, std::vector<std::string>& origin) {
+  if (!options.examples_folders.empty()) {
+    load_examples(options.examples_folders, tasks, origin);
     return true;
   }
   if (options.sequences.size() < 2) {
@@ -294,8 +313,10 @@ int main(int argc, char** argv) {
       ->type_name("FOLDER")
       ->capture_default_str();
   app.add_flag("--save-examples", options.save_examples, "Write the examples into the folder, too, as CSV files");
-  app.add_option("--examples", options.examples_folder, "Train on what --save-examples wrote into FOLDER instead of on recordings")
-      ->type_name("FOLDER");
+  app.add_option("--examples", options.examples_folders,
+                 "Train on what --save-examples wrote into FOLDER instead of on recordings; repeatable, for collections made side by side")
+      ->type_name("FOLDER")
+      ->take_all();
   app.add_option("--settings", options.settings_file, "JSON file of settings")->type_name("FILE");
   app.add_option("--set", options.assignments, "One setting as setting=value; repeatable")->take_all();
   add_device_options(app, options.device);

@@ -22,6 +22,23 @@ IcpSettings at_divisor(IcpSettings settings, int divisor) {
   return settings;
 }
 
+/// Of acceptance_features().
+constexpr std::size_t kColourFeature = 5;
+constexpr std::size_t kTextureFeature = 6;
+/// Below this probability a pose is hopeless, whatever the poor threshold says: rendered rooms, from which that stems, are kinder than real
+/// ones. (T: relocalisation_benchmark, kitchen)
+constexpr double kHopelessProbability = 0.02;
+
+ClassifierModel with_lenient_poor_threshold(ClassifierModel model) {
+  const double score =
+      (std::log(kHopelessProbability / (1.0 - kHopelessProbability)) - double{model.probability_offset}) / double{model.probability_scale};
+  if (std::isfinite(score)) model.poor_threshold = std::min(model.poor_threshold, static_cast<float>(score));
+  return model;
+}
+
+/// Whether colours were compared: not in the dark. Shapes alone do not tell places apart.
+bool has_colour(const ViewAgreement& agreement) { return agreement.colour_correlation != 0.0F; }
+
 RenderCamera camera_at(const Frame& frame, const SE3& world_from_camera, int divisor) {
   return RenderCamera{frame.calibration.depth, frame.depth.width, frame.depth.height, world_from_camera}.reduced(divisor);
 }
@@ -56,7 +73,7 @@ std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names() {
 
 PoseRefiner::PoseRefiner(const Context& context, const PoseRefinerSettings& settings, const ClassifierModel& classifier)
     : settings_(settings),
-      classifier_(classifier),
+      classifier_(with_lenient_poor_threshold(classifier)),
       raycaster_(context),
       coarse_icp_(context, at_divisor(settings.icp, settings.coarse_divisor)),
       fine_icp_(context, at_divisor(settings.icp, settings.fine_divisor)),
@@ -80,7 +97,10 @@ RefinedPose PoseRefiner::judge(const TrackingMeasures& measures, const ViewAgree
     result.score = -std::numeric_limits<float>::infinity();
     return result;
   }
-  const std::array<float, kNumAcceptanceFeatures> features = acceptance_features(measures, agreement);
+  std::array<float, kNumAcceptanceFeatures> features = acceptance_features(measures, agreement);
+  if (!has_colour(agreement)) {  // a feature at its mean speaks neither for nor against
+    for (const std::size_t i : {kColourFeature, kTextureFeature}) features[i] = classifier_.features[i].mean;
+  }
   result.score = classifier_.score(Span<const float>(features.data(), features.size()));
   result.probability = classifier_.probability(result.score);
   return result;
@@ -110,7 +130,7 @@ RefinedPose PoseRefiner::refine_one(const Frame& frame, const TsdfVolume& volume
   fine_icp_.set_frame(frame);
   check_.set_frame(frame);
   RefinedPose result = align_finely(frame, volume, proposal);
-  result.accepted = result.score > classifier_.good_threshold;
+  result.accepted = has_colour(result.agreement) && result.score > classifier_.good_threshold;
   return result;
 }
 
@@ -143,15 +163,18 @@ std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolum
     if (!contains(distinct, candidate.world_from_camera)) distinct.push_back(candidate);
   }
   std::vector<RefinedPose> finalists;
+  bool is_found = false;
   for (const RefinedPose& candidate : distinct) {
+    if (is_found && is_hopeless(candidate)) break;  // those that follow score no better, and cannot rival what was found
     RefinedPose aligned = align_finely(frame, volume, candidate.world_from_camera);
     aligned.candidate = candidate.candidate;
+    is_found = is_found || aligned.score > classifier_.good_threshold;
     finalists.push_back(aligned);
   }
   std::stable_sort(finalists.begin(), finalists.end(), by_score);
 
   RefinedPose& best = finalists.front();
-  best.accepted = best.score > classifier_.good_threshold;
+  best.accepted = has_colour(best.agreement) && best.score > classifier_.good_threshold;
   for (std::size_t i = 1; i < finalists.size(); ++i) {
     const bool rivals = finalists[i].score > classifier_.good_threshold && finalists[i].score > best.score - settings_.ambiguity_margin;
     if (rivals && !is_same(finalists[i].world_from_camera, best.world_from_camera)) best.accepted = false;

@@ -185,7 +185,7 @@ class Collector {
     add(examples_.tracking, {values.begin(), values.end()}, tracked.world_from_camera, frame, verdict);
     // The pipeline also asks the acceptance classifier about tracked poses, in the rendering from the pose before.
     const ViewAgreement agreement = check_.compare(map_, tracked.world_from_camera);
-    if (agreement.overlap < fusion_.refiner.min_overlap) return;
+    if (agreement.overlap < fusion_.refiner.min_overlap || agreement.colour_correlation == 0.0F) return;
     const std::array<float, kNumAcceptanceFeatures> view = acceptance_features(tracked.measures, agreement);
     add(examples_.acceptance, {view.begin(), view.end()}, tracked.world_from_camera, frame, verdict);
   }
@@ -193,6 +193,7 @@ class Collector {
   void try_acceptance(const RgbdFrame& frame, const SE3& start, Verdict verdict) {
     const RefinedPose refined = refiner_.refine_one(frame.view(), volume_, start);
     if (!refined.measures.well_posed || refined.agreement.overlap < fusion_.refiner.min_overlap) return;  // refused without a classifier
+    if (refined.agreement.colour_correlation == 0.0F) return;                                             // so are poses in the dark
     const std::array<float, kNumAcceptanceFeatures> values = acceptance_features(refined.measures, refined.agreement);
     add(examples_.acceptance, {values.begin(), values.end()}, refined.world_from_camera, frame, verdict);
   }

@@ -37,7 +37,7 @@ struct PoseRefinerSettings {
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&PoseRefinerSettings::max_candidates, "max_candidates", "Proposals that are looked at (R).", Range{1, 1000});
-    v(&PoseRefinerSettings::num_finalists, "num_finalists", "Proposals that are refined to the end (T: replay_sequence, kitchen).",
+    v(&PoseRefinerSettings::num_finalists, "num_finalists", "Proposals that are refined to the end, at most (T: replay_sequence, kitchen).",
       Range{1, 1000});
     v(&PoseRefinerSettings::same_pose_m, "same_pose_m", "Poses nearer than this and same_pose_deg are one [m].", Range{0.0, 1.0});
     v(&PoseRefinerSettings::same_pose_deg, "same_pose_deg", "Poses nearer than this and same_pose_m are one [deg].", Range{0.0, 90.0});
@@ -77,6 +77,7 @@ std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names();
 ///
 /// Every candidate is rendered coarsely, aligned and scored; the best few are rendered finely, aligned twice and judged: depth that agrees,
 /// surfaces that the frame looks through, things in the map's free space, too little overlap, colour, residual and Hessian all count.
+/// Once one of them is good enough, those that looked hopeless coarsely are left out.
 class PoseRefiner {
  public:
   /// @throws InvalidSettings
