@@ -163,8 +163,7 @@ void FusionPipeline::relocalise(const Frame& frame, Sighting& sighting, FusionFr
   if (refined.empty() || !refined.front().accepted) return;
   const RefinedPose& found = refined.front();
   const TrackingJudgement judgement = judge_tracking(found.measures);
-  // Where little of the view is mapped, right poses look poor to the gate, which has not seen the view; acceptance has.
-  if (judgement.quality == TrackingQuality::kFailed) return;
+  if (judgement.quality != TrackingQuality::kGood) return;
   if (sighting.tracked != TrackingQuality::kFailed) {
     if (is_near(found.world_from_camera, sighting.tracked_world_from_camera, kSamePlaceM, kSamePlaceDeg)) {
       sighting.outcome = RelocalisationOutcome::kConfirms;
