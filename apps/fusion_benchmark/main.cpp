@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "common/app_main.h"
+#include "common/override_settings.h"
 #include "common/progress_bar.h"
 #include "foothold/base/error.h"
 #include "foothold/evaluation/trajectory_error.h"
 #include "foothold/io/atomic_file.h"
 #include "foothold/io/sequence.h"
-#include "foothold/io/settings_file.h"
 #include "fusion_run.h"
 
 namespace foothold::apps {
@@ -30,12 +30,7 @@ struct Options {
 
 FusionSettings settings_of(const Options& options) {
   FusionSettings settings;
-  if (!options.settings_file.empty()) load_settings(options.settings_file, settings);
-  for (const std::string& assignment : options.assignments) {
-    const std::size_t equals = assignment.find('=');
-    if (equals == std::string::npos || equals == 0) throw InvalidSettings("--set: got '" + assignment + "', expected setting=value");
-    assign_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
-  }
+  apps::override_settings(options.settings_file, options.assignments, "setting=value", settings);
   return settings;
 }
 

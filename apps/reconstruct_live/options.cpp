@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <set>
 
+#include "common/override_settings.h"
 #include "foothold/base/error.h"
 #include "foothold/io/atomic_file.h"
 #include "foothold/io/calibration.h"
-#include "foothold/io/settings_file.h"
 
 namespace foothold::live {
 namespace {
@@ -86,14 +86,7 @@ LiveSettings live_settings(const LiveOptions& options) {
   LiveSettings settings;
   assign_mode(options.mode, settings.camera);
   settings.camera.device = options.camera;
-  if (!options.settings_file.empty()) load_settings(options.settings_file, settings);
-  for (const std::string& assignment : options.settings) {
-    const std::size_t equals = assignment.find('=');
-    if (equals == std::string::npos || equals == 0) {
-      throw InvalidSettings("--set: got '" + assignment + "', expected path=value, such as camera.lock_exposure=true");
-    }
-    assign_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
-  }
+  apps::override_settings(options.settings_file, options.settings, "path=value, such as camera.lock_exposure=true", settings);
   settings.validate();
   return settings;
 }

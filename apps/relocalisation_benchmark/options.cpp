@@ -4,10 +4,11 @@
 
 #include <algorithm>
 
+#include "common/override_settings.h"
+#include "common/unhurried_player.h"
 #include "foothold/base/error.h"
 #include "foothold/io/sequence.h"
 #include "foothold/io/sequence_player.h"
-#include "foothold/io/settings_file.h"
 
 namespace foothold::benchmark {
 namespace {
@@ -18,32 +19,6 @@ std::string method_help() {
   text.back() = '.';
   return text;
 }
-
-/// Applies "path=value". @throws InvalidSettings
-void assign(BenchmarkSettings& settings, const std::string& assignment) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw InvalidSettings("--set: got '" + assignment + "', expected path=value, such as forest.pose.num_hypotheses=512");
-  }
-  assign_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
-}
-
-/// Decodes each frame when it is read, in the reader's thread.
-class UnhurriedPlayer : public FrameSource {
- public:
-  UnhurriedPlayer(std::shared_ptr<const Sequence> sequence, std::vector<int> indices)
-      : sequence_(std::move(sequence)), indices_(std::move(indices)) {}
-  ReadStatus read(RgbdFrame& frame) override {
-    if (next_ == indices_.size()) return ReadStatus::kEnd;
-    frame = sequence_->load(indices_[next_++]);
-    return ReadStatus::kFrame;
-  }
-
- private:
-  std::shared_ptr<const Sequence> sequence_;
-  std::vector<int> indices_;
-  std::size_t next_ = 0;
-};
 
 Forest make_forest(const std::string& choice, const BenchmarkSettings& settings) {
   if (choice == "default") return default_forest();
@@ -89,8 +64,7 @@ MethodInputs method_inputs(const CommonOptions& options, const std::vector<Metho
   MethodInputs inputs;
   inputs.settings.forest = ForestRelocaliserSettings::preset(options.preset);
   set_seeds(inputs.settings, options.seed);
-  if (!options.settings_file.empty()) load_settings(options.settings_file, inputs.settings);
-  for (const std::string& assignment : options.settings) assign(inputs.settings, assignment);
+  apps::override_settings(options.settings_file, options.settings, "path=value, such as forest.pose.num_hypotheses=512", inputs.settings);
   validate_settings(inputs.settings);
   const bool needs_forest = std::any_of(methods.begin(), methods.end(), [](const Method& method) { return method.uses_forest; });
   if (needs_forest) inputs.forest = std::make_shared<const Forest>(make_forest(options.forest, inputs.settings));
@@ -121,7 +95,7 @@ EvaluationInput open_input(const CommonOptions& options, const std::string& sequ
   const std::string name = range_text.empty() ? sequence_spec : sequence_spec + "@" + range_text;
   const bool exclusive = options.exclusive_timing;
   const auto open = [sequence, indices, exclusive]() -> std::unique_ptr<FrameSource> {
-    if (exclusive) return std::make_unique<UnhurriedPlayer>(sequence, indices);
+    if (exclusive) return std::make_unique<apps::UnhurriedPlayer>(sequence, indices);
     return std::make_unique<SequencePlayer>(sequence, indices);
   };
   return {name, static_cast<int>(indices.size()), open};

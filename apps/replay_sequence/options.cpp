@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
+#include "common/override_settings.h"
 #include "common/view_window.h"
 #include "foothold/base/error.h"
 #include "foothold/io/atomic_file.h"
-#include "foothold/io/settings_file.h"
 
 namespace foothold::replay {
 namespace {
@@ -47,15 +47,6 @@ void add_output_options(CLI::App& app, ReplayOptions& options) {
   app.add_flag("--show", options.show, "Show the view in a window");
 }
 
-/// Applies "path=value". @throws InvalidSettings
-void assign(ReplaySettings& settings, const std::string& assignment) {
-  const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0) {
-    throw InvalidSettings("--set: got '" + assignment + "', expected path=value, such as fusion.volume.voxel_size_m=0.005");
-  }
-  assign_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
-}
-
 }  // namespace
 
 void add_replay_options(CLI::App& app, ReplayOptions& options) {
@@ -90,8 +81,7 @@ ReplaySettings replay_settings(const ReplayOptions& options) {
     settings.fusion.volume.voxel_size_m = options.voxel_size_m;
     settings.fusion.volume.truncation_m = kTruncation_voxels * options.voxel_size_m;
   }
-  if (!options.settings_file.empty()) load_settings(options.settings_file, settings);
-  for (const std::string& assignment : options.settings) assign(settings, assignment);
+  apps::override_settings(options.settings_file, options.settings, "path=value, such as fusion.volume.voxel_size_m=0.005", settings);
   settings.fusion.validate();
   validate_settings(settings);
   return settings;

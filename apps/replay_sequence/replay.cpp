@@ -9,6 +9,7 @@
 
 #include "common/peak_memory.h"
 #include "common/progress_bar.h"
+#include "common/unhurried_player.h"
 #include "foothold/base/error.h"
 #include "foothold/fusion/surface_mesh.h"
 #include "foothold/io/sequence.h"
@@ -96,23 +97,6 @@ class Replayer {
   ReplayView view_;
 };
 
-/// Decodes each frame when it is read, in the reader's thread.
-class UnhurriedPlayer : public FrameSource {
- public:
-  UnhurriedPlayer(std::shared_ptr<const Sequence> sequence, std::vector<int> indices)
-      : sequence_(std::move(sequence)), indices_(std::move(indices)) {}
-  ReadStatus read(RgbdFrame& frame) override {
-    if (next_ == indices_.size()) return ReadStatus::kEnd;
-    frame = sequence_->load(indices_[next_++]);
-    return ReadStatus::kFrame;
-  }
-
- private:
-  std::shared_ptr<const Sequence> sequence_;
-  std::vector<int> indices_;
-  std::size_t next_ = 0;
-};
-
 Reconstruction Replayer::start() const {
   Reconstruction reconstruction(context_, options_, settings_);
   const std::optional<SE3> first = sequence_->load(indices_.front()).world_from_camera;
@@ -124,7 +108,7 @@ std::unique_ptr<FrameSource> Replayer::open(const std::vector<PlayStep>& steps) 
   std::vector<int> indices;
   indices.reserve(steps.size());
   for (const PlayStep& step : steps) indices.push_back(indices_[static_cast<std::size_t>(step.frame)]);
-  if (options_.exclusive_timing) return std::make_unique<UnhurriedPlayer>(sequence_, std::move(indices));
+  if (options_.exclusive_timing) return std::make_unique<apps::UnhurriedPlayer>(sequence_, std::move(indices));
   return std::make_unique<SequencePlayer>(sequence_, std::move(indices));
 }
 

@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "common/app_main.h"
+#include "common/override_settings.h"
 #include "common/progress_bar.h"
 #include "foothold/base/error.h"
 #include "foothold/io/sequence.h"
-#include "foothold/io/settings_file.h"
 #include "foothold/learning/forest_training.h"
 
 namespace foothold::apps {
@@ -57,13 +57,7 @@ std::string settings_help() {
 template <class Settings>
 Settings settings_of(const Options& options) {
   Settings settings;
-  if (!options.settings_file.empty()) load_settings(options.settings_file, settings);
-  for (const std::string& assignment : options.assignments) {
-    const std::size_t equals = assignment.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw InvalidSettings("--set: got '" + assignment + "', expected setting=value, such as depth=13");
-    assign_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
-  }
+  apps::override_settings(options.settings_file, options.assignments, "setting=value, such as depth=13", settings);
   for (const auto& [path, text] : options.settings) {
     if (!text.empty()) assign_setting(settings, path, text);
   }

@@ -9,12 +9,12 @@
 #include <sstream>
 
 #include "common/app_main.h"
+#include "common/override_settings.h"
 #include "common/progress_bar.h"
 #include "foothold/base/error.h"
 #include "foothold/io/atomic_file.h"
 #include "foothold/io/image_file.h"
 #include "foothold/io/sequence.h"
-#include "foothold/io/settings_file.h"
 #include "foothold/learning/classifier_training.h"
 #include "foothold/learning/quality_examples.h"
 #include "roc_plot.h"
@@ -53,12 +53,7 @@ struct Options {
 
 GateSettings settings_of(const Options& options) {
   GateSettings settings;
-  if (!options.settings_file.empty()) load_settings(options.settings_file, settings);
-  for (const std::string& assignment : options.assignments) {
-    const std::size_t equals = assignment.find('=');
-    if (equals == std::string::npos || equals == 0) throw InvalidSettings("--set: got '" + assignment + "', expected setting=value");
-    assign_setting(settings, assignment.substr(0, equals), assignment.substr(equals + 1));
-  }
+  apps::override_settings(options.settings_file, options.assignments, "setting=value", settings);
   return settings;
 }
 

@@ -14,7 +14,7 @@ namespace foothold::test {
 namespace fs = std::filesystem;
 
 TempFolder::TempFolder() {
-  std::string name = (fs::temp_directory_path() / "foothold-test-XXXXXX").string();
+  std::string name = (fs::temp_directory_path() / "foothold-test-").string() + std::string(6, 'X');  // as mkdtemp asks
   if (::mkdtemp(name.data()) == nullptr) throw FileError(name + ": cannot be created");
   path_ = name;
 }
