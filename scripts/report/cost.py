@@ -10,7 +10,8 @@ from load import SUITES
 
 QUANTITIES = {"trained_frames": "frames learnt", "image_width_px": "image width [px]", "hypotheses": "hypotheses drawn", "leaves": "leaves of the forest"}
 STAGE_TITLES = {"correspondences": "leaves and modes", "features": "features", "hypotheses": "hypotheses", "ransac": "pre-emptive RANSAC", "refine": "refinement",
-                "cluster": "clustering", "insert": "reservoirs", "encode": "fern codes", "search": "keyframe search", "upload": "upload"}
+                "cluster": "clustering", "insert": "reservoirs", "encode": "fern codes", "search": "keyframe search", "upload": "upload", "rank": "ranking"}
+NUM_STAGE_COLOURS = 8  # of style.css
 
 
 def spread(ms, digits=2):
@@ -40,15 +41,12 @@ def stage_chart(methods, call):
         y, done = chart.py(len(bars) - index) + 5, 0.0
         chart.text(chart.left - 8, y + 15, name, "end", "value")
         for stage, ms in stages:
-            chart.bar(chart.px(done), y, chart.px(done + ms) - chart.px(done), 22, f"stage{stage_names.index(stage) % 7}", f"{stage}: {ms:.2f} ms")
+            chart.bar(chart.px(done), y, chart.px(done + ms) - chart.px(done), 22, f"stage{stage_names.index(stage) % NUM_STAGE_COLOURS}", f"{stage}: {ms:.2f} ms")
             done += ms
         chart.text(chart.px(done) + 7, y + 15, f"{done:.1f}" if done >= 1 else f"{done:.2f}", "start", "value")
-    key = '<p class="legend">' + "".join(f'<span><i class="box stage{i % 7}" style="background:{STAGE_COLOURS[i % 7]}"></i>{escape(STAGE_TITLES.get(s, s))}</span>'
+    key = '<p class="legend">' + "".join(f'<span><i class="box stage{i % NUM_STAGE_COLOURS}"></i>{escape(STAGE_TITLES.get(s, s))}</span>'
                                          for i, s in enumerate(stage_names)) + "</p>"
     return key + chart.svg()
-
-
-STAGE_COLOURS = ["#1f6fa8", "#4d9bd1", "#8fc3e6", "#0b8a6a", "#6cc4a8", "#b7a44d", "#9aa4b1"]
 
 
 def sweep_chart(sweep, train_key, relocalise_key):
