@@ -65,7 +65,7 @@ Rgb8 muted(Rgb8 colour) {
   return {dim(colour.r), dim(colour.g), dim(colour.b)};
 }
 
-void draw_camera(ViewCanvas& canvas, const Projection& to_pixel, const MapCamera& camera) {
+void draw_camera(Canvas& canvas, const Projection& to_pixel, const MapCamera& camera) {
   constexpr double kLength_px = 22.0;
   constexpr double kHalfWidth_px = 12.0;
   const cv::Point2d at = to_pixel(camera.x_m, camera.y_m);
@@ -78,7 +78,7 @@ void draw_camera(ViewCanvas& canvas, const Projection& to_pixel, const MapCamera
   for (std::size_t i = 0; i < corners.size(); ++i) canvas.line(corners[i], corners[(i + 1) % corners.size()], colour, 2.0);
 }
 
-void draw_scale(ViewCanvas& canvas, const cv::Rect& area, double px_per_m) {
+void draw_scale(Canvas& canvas, const cv::Rect& area, double px_per_m) {
   double length_m = 1.0;
   for (const double candidate_m : {5.0, 2.0, 1.0, 0.5, 0.2, 0.1}) {
     length_m = candidate_m;
@@ -97,7 +97,7 @@ void draw_scale(ViewCanvas& canvas, const cv::Rect& area, double px_per_m) {
 
 }  // namespace
 
-void draw_map(ViewCanvas& canvas, const cv::Rect& area, const MapContents& map) {
+void draw_map(Canvas& canvas, const cv::Rect& area, const MapContents& map) {
   canvas.fill(area, kPanel);
   const Bounds bounds = bounds_of(map);
   if (bounds.empty()) {
@@ -105,7 +105,7 @@ void draw_map(ViewCanvas& canvas, const cv::Rect& area, const MapContents& map) 
     return;
   }
   const Projection to_pixel = fit(bounds, area);
-  ViewCanvas inside(area.width, area.height, kPanel);  // what sticks out is cut off
+  Canvas inside(area.width, area.height, kPanel);  // what sticks out is cut off
   Projection local = to_pixel;
   local.origin -= cv::Point2d(area.tl());
   const int size = std::max(1, static_cast<int>(std::ceil(kCellOverlap * map.cell_m * local.scale)));

@@ -36,7 +36,7 @@ double full_scale_ms(double total_ms) {
   return total_ms;
 }
 
-void draw_bar(ViewCanvas& canvas, const cv::Rect& area, double fraction, Rgb8 colour) {
+void draw_bar(Canvas& canvas, const cv::Rect& area, double fraction, Rgb8 colour) {
   canvas.fill_rounded(area, area.height / 2, kGroove);
   const auto filled = static_cast<int>(std::lround(in_unit_range(fraction) * area.width));
   if (filled > 0) canvas.fill_rounded({area.x, area.y, std::max(filled, area.height), area.height}, area.height / 2, colour);
@@ -53,8 +53,8 @@ Image<float> reduced(const Image<float>& image, cv::Size area) {
 }
 
 /// A filled pill with words; returns its right end.
-int draw_pill(ViewCanvas& canvas, cv::Point corner, int height, const std::string& words, Rgb8 colour) {
-  const auto width = static_cast<int>(std::ceil(ViewCanvas::text_width(words, kHeading))) + 36;
+int draw_pill(Canvas& canvas, cv::Point corner, int height, const std::string& words, Rgb8 colour) {
+  const auto width = static_cast<int>(std::ceil(Canvas::text_width(words, kHeading))) + 36;
   canvas.fill_rounded({corner.x, corner.y, width, height}, height / 2, colour);
   canvas.text({corner.x + 0.5 * width, corner.y + 0.5 * height}, words, kHeading, kDarkText, TextAlign::kCentre);
   return corner.x + width;
@@ -62,19 +62,19 @@ int draw_pill(ViewCanvas& canvas, cv::Point corner, int height, const std::strin
 
 }  // namespace
 
-void draw_caption(ViewCanvas& canvas, cv::Point corner, const std::string& words) {
-  const auto width = static_cast<int>(std::ceil(ViewCanvas::text_width(words, kLabel)));
+void draw_caption(Canvas& canvas, cv::Point corner, const std::string& words) {
+  const auto width = static_cast<int>(std::ceil(Canvas::text_width(words, kLabel)));
   canvas.fill_rounded({corner.x + 8, corner.y + 8, width + 16, 22}, 4, kBackground, 0.75);
   canvas.text({corner.x + 16.0, corner.y + 19.0}, words, kLabel, kText);
 }
 
-void draw_header(ViewCanvas& canvas, const cv::Rect& area, const ViewContents& contents) {
+void draw_header(Canvas& canvas, const cv::Rect& area, const ViewContents& contents) {
   const double middle = area.y + 0.5 * area.height;
   const int pill_y = area.y + area.height / 2 - 16;
   int x = draw_pill(canvas, {area.x, pill_y}, 32, name_of(contents.state), colour_of(contents.state));
   if (contents.relocalised) x = draw_pill(canvas, {x + 10, pill_y}, 32, "RELOCALISED", kBlue);
   const double note_width = kConfidenceX - 16.0 - (x + 14.0);
-  canvas.text({x + 14.0, middle}, ViewCanvas::shortened(contents.state_note, kBody, note_width), kBody, kDimText);
+  canvas.text({x + 14.0, middle}, Canvas::shortened(contents.state_note, kBody, note_width), kBody, kDimText);
 
   canvas.text({kConfidenceX, middle}, "confidence", kBody, kDimText);
   const int bar_x = static_cast<int>(kConfidenceX) + 98;
@@ -83,11 +83,11 @@ void draw_header(ViewCanvas& canvas, const cv::Rect& area, const ViewContents& c
 
   const double right = area.x + area.width;
   const double title_width = right - (bar_x + 260.0);
-  canvas.text({right, middle - 10.0}, ViewCanvas::shortened(contents.title, kBody, title_width), kBody, kText, TextAlign::kRight);
+  canvas.text({right, middle - 10.0}, Canvas::shortened(contents.title, kBody, title_width), kBody, kText, TextAlign::kRight);
   canvas.text({right, middle + 10.0}, contents.frame_text, kLabel, kDimText, TextAlign::kRight);
 }
 
-void draw_picture(ViewCanvas& canvas, const cv::Rect& area, const Image<Rgb8>& image, const std::string& caption, double brightness) {
+void draw_picture(Canvas& canvas, const cv::Rect& area, const Image<Rgb8>& image, const std::string& caption, double brightness) {
   canvas.fill(area, kPanel);
   if (image.empty()) {
     canvas.text({area.x + 0.5 * area.width, area.y + 0.5 * area.height}, "nothing yet", kBody, kDimText, TextAlign::kCentre);
@@ -96,7 +96,7 @@ void draw_picture(ViewCanvas& canvas, const cv::Rect& area, const Image<Rgb8>& i
   draw_caption(canvas, area.tl(), caption);
 }
 
-void draw_depth(ViewCanvas& canvas, const cv::Rect& area, const ViewContents& contents) {
+void draw_depth(Canvas& canvas, const cv::Rect& area, const ViewContents& contents) {
   const Image<float> shown = reduced(contents.depth_m, area.size());
   const Image<Rgb8> coloured = shown.empty() ? Image<Rgb8>() : colourise_depth(shown, 0.0F, contents.max_depth_m);
   draw_picture(canvas, area, coloured, "depth");
@@ -111,7 +111,7 @@ void draw_depth(ViewCanvas& canvas, const cv::Rect& area, const ViewContents& co
   canvas.text({box.x + 20.0 + kWidth + 6.0, box.y + 11.0}, fixed_text(contents.max_depth_m, 0) + " m", kLabel, kText);
 }
 
-void draw_timings(ViewCanvas& canvas, const cv::Rect& area, const ViewContents& contents) {
+void draw_timings(Canvas& canvas, const cv::Rect& area, const ViewContents& contents) {
   canvas.fill_rounded(area, kRadius, kPanel);
   const double left = area.x + kMargin;
   const double right = area.x + area.width - kMargin;
@@ -135,7 +135,7 @@ void draw_timings(ViewCanvas& canvas, const cv::Rect& area, const ViewContents& 
   if (contents.view_ms > 0.0) row(contents.timings.size() + 1, {"this view", contents.view_ms}, kGrey);
 }
 
-void draw_history(ViewCanvas& canvas, const cv::Rect& area, const std::vector<ViewMoment>& history) {
+void draw_history(Canvas& canvas, const cv::Rect& area, const std::vector<ViewMoment>& history) {
   canvas.fill_rounded(area, kRadius, kPanel);
   canvas.text({area.x + kMargin, area.y + 20.0}, "confidence and state of the last frames", kBody, kText);
   const cv::Rect plot(area.x + 42, area.y + 44, area.width - 42 - static_cast<int>(kMargin), area.height - 44 - 50);
@@ -170,29 +170,29 @@ void draw_history(ViewCanvas& canvas, const cv::Rect& area, const std::vector<Vi
                                      {"camera moved", kText}}) {
     canvas.disc({x + 4.0, y}, 4.0, colour);
     canvas.text({x + 13.0, y}, name, kLabel, kDimText);
-    x += ViewCanvas::text_width(name, kLabel) + 29.0;
+    x += Canvas::text_width(name, kLabel) + 29.0;
   }
 }
 
-void draw_footer(ViewCanvas& canvas, const cv::Rect& area, const ViewContents& contents) {
+void draw_footer(Canvas& canvas, const cv::Rect& area, const ViewContents& contents) {
   const double middle = area.y + 0.5 * area.height;
   double right = area.x + area.width;
   if (!contents.keys.empty()) {
     canvas.text({right, middle}, "H  keys", kLabel, kDimText, TextAlign::kRight);
-    right -= ViewCanvas::text_width("H  keys", kLabel) + 24.0;
+    right -= Canvas::text_width("H  keys", kLabel) + 24.0;
   }
   canvas.text({right, middle}, contents.counters, kLabel, kDimText, TextAlign::kRight);
-  const double width = right - ViewCanvas::text_width(contents.counters, kLabel) - 24.0 - area.x;
-  canvas.text({static_cast<double>(area.x), middle}, ViewCanvas::shortened(contents.notice, kBody, width), kBody, kText);
+  const double width = right - Canvas::text_width(contents.counters, kLabel) - 24.0 - area.x;
+  canvas.text({static_cast<double>(area.x), middle}, Canvas::shortened(contents.notice, kBody, width), kBody, kText);
 }
 
-void draw_help(ViewCanvas& canvas, const std::vector<ViewKey>& keys) {
+void draw_help(Canvas& canvas, const std::vector<ViewKey>& keys) {
   constexpr double kRow = 30.0;
   double key_width = 40.0;
-  double meaning_width = ViewCanvas::text_width("Any other key closes this", kBody);
+  double meaning_width = Canvas::text_width("Any other key closes this", kBody);
   for (const ViewKey& key : keys) {
-    key_width = std::max(key_width, ViewCanvas::text_width(key.key, kBody) + 20.0);
-    meaning_width = std::max(meaning_width, ViewCanvas::text_width(key.meaning, kBody));
+    key_width = std::max(key_width, Canvas::text_width(key.key, kBody) + 20.0);
+    meaning_width = std::max(meaning_width, Canvas::text_width(key.meaning, kBody));
   }
   const cv::Size all = canvas.pixels().size();
   canvas.fill_rounded({0, 0, all.width, all.height}, 0, kBackground, 0.6);

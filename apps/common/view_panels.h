@@ -3,28 +3,28 @@
 /// The parts of the view, each drawn into an area of its own.
 #pragma once
 
-#include "common/view_canvas.h"
+#include "common/canvas.h"
 #include "common/view_contents.h"
 
 namespace foothold::apps {
 
 /// State, confidence, title and frame.
-void draw_header(ViewCanvas& canvas, const cv::Rect& area, const ViewContents& contents);
+void draw_header(Canvas& canvas, const cv::Rect& area, const ViewContents& contents);
 /// Words on a dark plate near a corner.
-void draw_caption(ViewCanvas& canvas, cv::Point corner, const std::string& words);
+void draw_caption(Canvas& canvas, cv::Point corner, const std::string& words);
 /// A picture with a caption in its corner; says so where there is none.
-void draw_picture(ViewCanvas& canvas, const cv::Rect& area, const Image<Rgb8>& image, const std::string& caption, double brightness = 1.0);
+void draw_picture(Canvas& canvas, const cv::Rect& area, const Image<Rgb8>& image, const std::string& caption, double brightness = 1.0);
 /// Depth, colour-coded, with the code.
-void draw_depth(ViewCanvas& canvas, const cv::Rect& area, const ViewContents& contents);
+void draw_depth(Canvas& canvas, const cv::Rect& area, const ViewContents& contents);
 /// Milliseconds per stage as bars.
-void draw_timings(ViewCanvas& canvas, const cv::Rect& area, const ViewContents& contents);
+void draw_timings(Canvas& canvas, const cv::Rect& area, const ViewContents& contents);
 /// State and confidence of the last frames.
-void draw_history(ViewCanvas& canvas, const cv::Rect& area, const std::vector<ViewMoment>& history);
+void draw_history(Canvas& canvas, const cv::Rect& area, const std::vector<ViewMoment>& history);
 /// What happened last, the counters, and how to get help.
-void draw_footer(ViewCanvas& canvas, const cv::Rect& area, const ViewContents& contents);
+void draw_footer(Canvas& canvas, const cv::Rect& area, const ViewContents& contents);
 /// The keys, over everything else.
-void draw_help(ViewCanvas& canvas, const std::vector<ViewKey>& keys);
+void draw_help(Canvas& canvas, const std::vector<ViewKey>& keys);
 /// The map from above with the trajectory.
-void draw_map(ViewCanvas& canvas, const cv::Rect& area, const MapContents& map);
+void draw_map(Canvas& canvas, const cv::Rect& area, const MapContents& map);
 
 }  // namespace foothold::apps

@@ -34,7 +34,7 @@ constexpr double kStaleBrightness = 0.45;
 }  // namespace
 
 cv::Mat compose_view(const ViewContents& contents) {
-  ViewCanvas canvas(kViewWidth, kViewHeight, style::kBackground);
+  Canvas canvas(kViewWidth, kViewHeight, style::kBackground);
   draw_header(canvas, {kEdge, 0, kRight - kEdge, kHeaderHeight}, contents);
   draw_picture(canvas, {kEdge, kTop, kCameraWidth, kCameraHeight}, contents.colour, "colour");
   draw_depth(canvas, {kEdge, kTop + kCameraHeight + kGap, kCameraWidth, kCameraHeight}, contents);

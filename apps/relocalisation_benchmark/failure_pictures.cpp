@@ -10,14 +10,14 @@
 #include <opencv2/imgproc.hpp>
 #include <optional>
 
-#include "common/view_canvas.h"
+#include "common/canvas.h"
 #include "foothold/evaluation/text_table.h"
 
 namespace foothold::benchmark {
 namespace {
 
+using apps::Canvas;
 using apps::TextAlign;
-using apps::ViewCanvas;
 
 constexpr Rgb8 kBackground = {22, 26, 32};
 constexpr Rgb8 kNothing = {38, 44, 53};
@@ -74,7 +74,7 @@ struct Panel {
   }
 };
 
-Panel place(ViewCanvas& canvas, const Image<Rgb8>& image, cv::Point corner, int width, int frame_width) {
+Panel place(Canvas& canvas, const Image<Rgb8>& image, cv::Point corner, int width, int frame_width) {
   const cv::Rect area(corner, cv::Size(width, width * image.height() / image.width()));
   canvas.picture(area, image);
   return {area, static_cast<double>(width) / frame_width};
@@ -82,7 +82,7 @@ Panel place(ViewCanvas& canvas, const Image<Rgb8>& image, cv::Point corner, int 
 
 /// Draws the correspondences that support a candidate.
 /// @param in_candidate_view  draws modes as the candidate sees them, else the pixels themselves.
-void draw_support(ViewCanvas& canvas, const Panel& panel, const FailureCase& failure, const ExplainedCandidate& candidate,
+void draw_support(Canvas& canvas, const Panel& panel, const FailureCase& failure, const ExplainedCandidate& candidate,
                   bool in_candidate_view, double radius) {
   const Frame frame = failure.frame.view();
   const SE3 camera_from_world = candidate.world_from_camera.inverse();
@@ -107,11 +107,11 @@ std::string error_text(const PoseError& error) {
          format_number(kDegPerRad * error.rotation_rad, error.rotation_rad < 0.17 ? 1 : 0) + " deg off";
 }
 
-void draw_frame_around(ViewCanvas& canvas, const cv::Rect& area, Rgb8 colour) {
+void draw_frame_around(Canvas& canvas, const cv::Rect& area, Rgb8 colour) {
   cv::rectangle(canvas.pixels(), area, apps::bgr(colour), 3, cv::LINE_AA);
 }
 
-Image<Rgb8> to_image(const ViewCanvas& canvas) {
+Image<Rgb8> to_image(const Canvas& canvas) {
   Image<Rgb8> image(canvas.pixels().cols, canvas.pixels().rows);
   cv::Mat rgb(image.height(), image.width(), CV_8UC3, image.data());
   cv::cvtColor(canvas.pixels(), rgb, cv::COLOR_BGR2RGB);
@@ -157,7 +157,7 @@ RenderCamera overview_camera(const FailureCase& failure) {
 /// Draws on an image as a camera sees the world.
 class WorldPainter {
  public:
-  WorldPainter(ViewCanvas& canvas, const RenderCamera& camera)
+  WorldPainter(Canvas& canvas, const RenderCamera& camera)
       : canvas_(canvas), camera_(camera), camera_from_world_(camera.world_from_camera.inverse()) {}
 
   void line(const Eigen::Vector3f& from_world, const Eigen::Vector3f& to_world, Rgb8 colour, double thickness) {
@@ -212,7 +212,7 @@ class WorldPainter {
     return cv::Point2d(static_cast<double>(pixel.x()), static_cast<double>(pixel.y()));
   }
 
-  ViewCanvas& canvas_;
+  Canvas& canvas_;
   const RenderCamera& camera_;
   SE3 camera_from_world_;
 };
@@ -260,8 +260,8 @@ Image<Rgb8> draw_candidates(const FailureCase& failure, SceneModel& model) {
   const int large_width = 2 * kTileWidth + kMargin;
   const int large_height = large_width * failure.frame.depth.height() / frame_width;
   const int num_rows = (static_cast<int>(num_shown) + kColumns - 1) / kColumns;
-  ViewCanvas canvas(kColumns * (kTileWidth + kMargin) + kMargin,
-                    kMargin + large_height + kCaptionHeight + num_rows * (tile_height + kCaptionHeight), kBackground);
+  Canvas canvas(kColumns * (kTileWidth + kMargin) + kMargin,
+                kMargin + large_height + kCaptionHeight + num_rows * (tile_height + kCaptionHeight), kBackground);
 
   const Panel live = place(canvas, failure.frame.colour, {kMargin, kMargin}, large_width, frame_width);
   if (!candidates.empty()) draw_support(canvas, live, failure, candidates.front(), false, 3.5);
@@ -290,7 +290,7 @@ Image<Rgb8> draw_candidates(const FailureCase& failure, SceneModel& model) {
 
 Image<Rgb8> draw_modes(const FailureCase& failure, SceneModel& model) {
   const RenderCamera camera = overview_camera(failure);
-  ViewCanvas canvas(camera.width, camera.height, kBackground);
+  Canvas canvas(camera.width, camera.height, kBackground);
   canvas.picture({0, 0, camera.width, camera.height}, faded(model.render(camera, kNothing)));
   WorldPainter painter(canvas, camera);
   const Frame frame = failure.frame.view();

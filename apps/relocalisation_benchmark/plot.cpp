@@ -14,8 +14,8 @@
 namespace foothold::benchmark {
 namespace {
 
-using apps::Align;
 using apps::Canvas;
+using apps::TextAlign;
 
 constexpr int kWidth = 1200;
 constexpr int kChartHeight = 440;
@@ -79,11 +79,11 @@ std::vector<double> moving_recall(const std::vector<TestRecord>& tests, int wind
 }
 
 /// @return The left end of what was drawn [px].
-double draw_legend(Canvas& canvas, const BenchmarkResult& result, Point right_end) {
+double draw_legend(Canvas& canvas, const BenchmarkResult& result, cv::Point2d right_end) {
   double x = right_end.x;
   for (std::size_t i = result.methods.size(); i-- > 0;) {
     const std::string label = result.methods[i].name + " " + percent(found_fraction(result.methods[i]));
-    canvas.text({x, right_end.y}, label, kLabelHeight, kInk, Align::kRight);
+    canvas.text({x, right_end.y}, label, kLabelHeight, kInk, TextAlign::kRight);
     x -= Canvas::text_width(label, kLabelHeight) + 8.0;
     canvas.line({x - 22.0, right_end.y}, {x, right_end.y}, method_colour(i), 3.0);
     x -= 22.0 + 20.0;
@@ -130,15 +130,15 @@ void draw_axes(Canvas& canvas, const Box& box, const std::vector<TestRecord>& te
   for (int tick = 0; tick <= 100; tick += 20) {
     const double y = box.bottom - (box.bottom - box.top) * tick / 100.0;
     canvas.line({box.left, y}, {box.right, y}, kFaint);
-    canvas.text({box.left - 8.0, y}, std::to_string(tick) + " %", kLabelHeight, kInk, Align::kRight);
+    canvas.text({box.left - 8.0, y}, std::to_string(tick) + " %", kLabelHeight, kInk, TextAlign::kRight);
   }
   for (const Tick& tick : test_ticks(tests)) {
     const double x = box.left + (box.right - box.left) * tick.position / std::max(1.0, static_cast<double>(tests.size()) - 1.0);
     canvas.line({x, box.bottom}, {x, box.bottom + 5.0}, kInk);
-    canvas.text({x, box.bottom + 17.0}, tick.label, kLabelHeight, kInk, Align::kCentre);
+    canvas.text({x, box.bottom + 17.0}, tick.label, kLabelHeight, kInk, TextAlign::kCentre);
   }
   canvas.line({box.left, box.bottom}, {box.right, box.bottom}, kInk);
-  canvas.text({0.5 * (box.left + box.right), box.bottom + 38.0}, "tested frame", kLabelHeight, kInk, Align::kCentre);
+  canvas.text({0.5 * (box.left + box.right), box.bottom + 38.0}, "tested frame", kLabelHeight, kInk, TextAlign::kCentre);
 }
 
 std::string title_of(const BenchmarkResult& result) {
@@ -157,7 +157,7 @@ void draw_chart(Canvas& canvas, const BenchmarkResult& result) {
   draw_axes(canvas, box, tests);
   for (std::size_t i = result.methods.size(); i-- > 0;) {  // the first method on top
     const std::vector<double> recall = moving_recall(result.methods[i].log.tests, window);
-    std::vector<Point> points;
+    std::vector<cv::Point2d> points;
     for (std::size_t test = 0; test < recall.size(); ++test) {
       const double x =
           box.left + (box.right - box.left) * static_cast<double>(test) / std::max(1.0, static_cast<double>(recall.size()) - 1.0);
@@ -168,9 +168,9 @@ void draw_chart(Canvas& canvas, const BenchmarkResult& result) {
 }
 
 /// The smallest box around points.
-Box bounds_of(const std::vector<Point>& points) {
+Box bounds_of(const std::vector<cv::Point2d>& points) {
   Box bounds{points.front().x, points.front().y, points.front().x, points.front().y};
-  for (const Point& point : points) {
+  for (const cv::Point2d& point : points) {
     bounds = {std::min(bounds.left, point.x), std::min(bounds.top, point.y), std::max(bounds.right, point.x),
               std::max(bounds.bottom, point.y)};
   }
@@ -180,14 +180,14 @@ Box bounds_of(const std::vector<Point>& points) {
 /// Fits points [m] into a box, keeping their proportions.
 class MapScale {
  public:
-  MapScale(const std::vector<Point>& points, const Box& box) : box_(box) {
+  MapScale(const std::vector<cv::Point2d>& points, const Box& box) : box_(box) {
     const Box bounds_m = bounds_of(points);
     centre_ = {0.5 * (bounds_m.left + bounds_m.right), 0.5 * (bounds_m.top + bounds_m.bottom)};
     constexpr double least_m = 0.01;  // of a camera that stood still
     px_per_m_ = std::min((box.right - box.left) / std::max(bounds_m.right - bounds_m.left, least_m),
                          (box.bottom - box.top) / std::max(bounds_m.bottom - bounds_m.top, least_m));
   }
-  Point operator()(Point point) const {
+  cv::Point2d operator()(cv::Point2d point) const {
     return {0.5 * (box_.left + box_.right) + (point.x - centre_.x) * px_per_m_,
             0.5 * (box_.top + box_.bottom) + (point.y - centre_.y) * px_per_m_};
   }
@@ -195,19 +195,19 @@ class MapScale {
 
  private:
   Box box_;
-  Point centre_;
+  cv::Point2d centre_;
   double px_per_m_ = 1.0;
 };
 
-void draw_scale_bar(Canvas& canvas, Point left_end, double px_per_m) {
+void draw_scale_bar(Canvas& canvas, cv::Point2d left_end, double px_per_m) {
   const double length_m = round_step(120.0 / px_per_m, 2);
-  const Point right_end{left_end.x + length_m * px_per_m, left_end.y};
+  const cv::Point2d right_end{left_end.x + length_m * px_per_m, left_end.y};
   canvas.line(left_end, right_end, kInk, 2.0);
   const std::string label = length_m < 1.0 ? format_number(length_m * 100.0, 0) + " cm" : format_number(length_m, 0) + " m";
   canvas.text({right_end.x + 8.0, left_end.y}, label, kLabelHeight, kInk);
 }
 
-void draw_map(Canvas& canvas, const MethodResult& method, const std::vector<Point>& positions_m, const Box& box) {
+void draw_map(Canvas& canvas, const MethodResult& method, const std::vector<cv::Point2d>& positions_m, const Box& box) {
   canvas.text({box.left, box.top + 10.0}, method.name + ": " + percent(found_fraction(method)) + " found", kTitleHeight, kInk);
   const MapScale scale(positions_m, {box.left + 10.0, box.top + kMapHeader, box.right - 10.0, box.bottom - kMapFooter});
   for (std::size_t i = 1; i < positions_m.size(); ++i) {
@@ -246,7 +246,7 @@ void draw_map_legend(Canvas& canvas, double y) {
 }
 
 /// The height of a map that its trajectory fills.
-double map_height(const std::vector<Point>& positions_m, double map_width) {
+double map_height(const std::vector<cv::Point2d>& positions_m, double map_width) {
   const Box bounds_m = bounds_of(positions_m);
   const double aspect = (bounds_m.bottom - bounds_m.top) / std::max(bounds_m.right - bounds_m.left, 1e-6);
   return std::clamp(aspect * map_width + kMapHeader + kMapFooter, kLeastMapHeight, kMostMapHeight);
@@ -260,7 +260,7 @@ Image<Rgb8> draw_result(const BenchmarkResult& result) {
   const int num_columns = std::min(num_maps, kMapsPerRow);
   const int num_rows = (num_maps + num_columns - 1) / num_columns;
   constexpr double legend_height = 40.0;
-  const std::vector<Point> positions_m = seen_from_above(result.methods.front().log.tests);
+  const std::vector<cv::Point2d> positions_m = seen_from_above(result.methods.front().log.tests);
   const double width = (kWidth - kMargin * (num_columns + 1)) / num_columns;
   const double height = map_height(positions_m, width);
   Canvas canvas(kWidth, static_cast<int>(kChartHeight + legend_height + num_rows * height));

@@ -7,7 +7,7 @@
 
 namespace foothold::benchmark {
 
-std::vector<Point> seen_from_above(const std::vector<TestRecord>& tests) {
+std::vector<cv::Point2d> seen_from_above(const std::vector<TestRecord>& tests) {
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const TestRecord& test : tests) {
@@ -24,7 +24,7 @@ std::vector<Point> seen_from_above(const std::vector<TestRecord>& tests) {
   }
   const Eigen::Vector3d along = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
   const Eigen::Vector3d across = along.cross(up);
-  std::vector<Point> points;
+  std::vector<cv::Point2d> points;
   for (const TestRecord& test : tests) {
     const Eigen::Vector3d offset = test.world_from_camera_true.translation.cast<double>() - mean;
     points.push_back({along.dot(offset), across.dot(offset)});

@@ -10,11 +10,9 @@
 
 namespace foothold::benchmark {
 
-using apps::Point;
-
 /// Positions of the tested cameras [m] seen from above: x along the longer side of the trajectory, y across it.
 ///
 /// "Above" is where the cameras' upper edges point on average, since recordings do not say which way is up.
-std::vector<Point> seen_from_above(const std::vector<TestRecord>& tests);
+std::vector<cv::Point2d> seen_from_above(const std::vector<TestRecord>& tests);
 
 }  // namespace foothold::benchmark

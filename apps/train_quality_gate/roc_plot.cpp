@@ -32,23 +32,23 @@ class Panel {
 
   void draw(const NamedReport& named) {
     const ClassifierReport& report = named.report;
-    canvas_.text({left_ + 0.5 * width(), 22.0}, named.title + ": AUC " + text("%.4f", report.auc), 11.0, kInk, Align::kCentre);
+    canvas_.text({left_ + 0.5 * width(), 22.0}, named.title + ": AUC " + text("%.4f", report.auc), 11.0, kInk, TextAlign::kCentre);
     for (int decade = -4; decade <= 0; ++decade) {
       const double x = place({std::pow(10.0, decade), 0.0}).x;
       canvas_.line({x, top()}, {x, bottom()}, kGrid);
-      canvas_.text({x, bottom() + 16.0}, text("%g", std::pow(10.0, decade)), 9.0, kInk, Align::kCentre);
+      canvas_.text({x, bottom() + 16.0}, text("%g", std::pow(10.0, decade)), 9.0, kInk, TextAlign::kCentre);
     }
     for (int fifth = 0; fifth <= 5; ++fifth) {
       const double y = place({kLeastRate, 0.2 * fifth}).y;
       canvas_.line({left_, y}, {left_ + width(), y}, kGrid);
-      canvas_.text({left_ - 8.0, y}, text("%.1f", 0.2 * fifth), 9.0, kInk, Align::kRight);
+      canvas_.text({left_ - 8.0, y}, text("%.1f", 0.2 * fifth), 9.0, kInk, TextAlign::kRight);
     }
-    std::vector<Point> curve;
+    std::vector<cv::Point2d> curve;
     for (const RocPoint& point : report.roc) curve.push_back(place({point.false_positive_rate, point.true_positive_rate}));
     canvas_.polyline(curve, kCurve, 2.0);
     canvas_.disc(place({report.false_positive_rate_good, report.true_positive_rate_good}), 4.0, kMark);
     canvas_.text({left_ + 0.5 * width(), bottom() + 36.0}, "wrong poses called good (red: the shipped threshold)", 9.0, kInk,
-                 Align::kCentre);
+                 TextAlign::kCentre);
     canvas_.text({left_, top() - 14.0}, "right poses called good", 9.0, kInk);
   }
 
@@ -56,7 +56,7 @@ class Panel {
   static double top() { return kMargin; }
   static double bottom() { return kHeight - kMargin; }
   static double width() { return kPanelWidth - kMargin - 20.0; }
-  Point place(const Point& rates) const {
+  cv::Point2d place(const cv::Point2d& rates) const {
     const double x = 1.0 - std::log10(std::max(kLeastRate, rates.x)) / std::log10(kLeastRate);
     return {left_ + x * width(), bottom() - rates.y * (bottom() - top())};
   }
