@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "foothold/api/frame_uploader.h"
+#include "common/reconstruction.h"
 #include "foothold/base/contract.h"
 #include "foothold/base/error.h"
 #include "foothold/evaluation/novelty.h"
@@ -13,45 +13,14 @@
 namespace foothold::benchmark {
 namespace {
 
-std::unique_ptr<Relocaliser> make_relocaliser(const Context& context, const Method& method, const MethodInputs& inputs) {
-  if (method.name == "ferns") return std::make_unique<KeyframeRelocaliser>(context, inputs.settings.ferns);
-  return std::make_unique<ForestRelocaliser>(context, *inputs.forest,
-                                             method.name == "paper" ? inputs.settings.paper : inputs.settings.forest);
+using apps::Reconstruction;
+
+Reconstruction make_reconstruction(const Context& context, const Method& method, const MethodInputs& inputs) {
+  const FusionSettings fusion;
+  if (method.name == "ferns") return {context, fusion, std::make_unique<KeyframeRelocaliser>(context, inputs.settings.ferns)};
+  const ForestRelocaliserSettings& settings = method.name == "paper" ? inputs.settings.paper : inputs.settings.forest;
+  return {context, fusion, std::make_unique<ForestRelocaliser>(context, *inputs.forest, settings)};
 }
-
-std::unique_ptr<Relocaliser> copy_of(const Relocaliser& relocaliser) {
-  if (const auto* forest = dynamic_cast<const ForestRelocaliser*>(&relocaliser)) return std::make_unique<ForestRelocaliser>(*forest);
-  return std::make_unique<KeyframeRelocaliser>(dynamic_cast<const KeyframeRelocaliser&>(relocaliser));
-}
-
-/// A pipeline with its relocaliser. Copies are independent.
-class Reconstruction {
- public:
-  Reconstruction(const Context& context, std::unique_ptr<Relocaliser> relocaliser)
-      : relocaliser_(std::move(relocaliser)),
-        pipeline_(std::make_unique<FusionPipeline>(context, FusionSettings{}, relocaliser_.get())),
-        uploader_(context),
-        context_(context) {}
-  Reconstruction(const Reconstruction& other)
-      : relocaliser_(copy_of(*other.relocaliser_)),
-        pipeline_(std::make_unique<FusionPipeline>(*other.pipeline_, relocaliser_.get())),
-        uploader_(other.context_),
-        context_(other.context_) {}
-  Reconstruction& operator=(const Reconstruction&) = delete;
-
-  void start_at(const SE3& world_from_camera) { pipeline_->start_at(world_from_camera); }
-  PlayedFrame process(const RgbdFrame& frame) {
-    const FusionFrameResult result = pipeline_->process(uploader_.upload(frame.view()));
-    const bool believed = result.world_from_camera.has_value() && result.quality == TrackingQuality::kGood;
-    return {result.world_from_camera, believed, result.fused, result.total_ms};
-  }
-
- private:
-  std::unique_ptr<Relocaliser> relocaliser_;
-  std::unique_ptr<FusionPipeline> pipeline_;
-  FrameUploader uploader_;
-  Context context_;
-};
 
 /// A kidnap that was played, to be judged once the undisturbed run has come as far.
 struct Branch {
@@ -80,7 +49,7 @@ class KidnapPlayer {
       const RgbdFrame frame = load(step.frame);
       if (branch.frames.empty()) was_seen = novelty_bin_of(*frame.world_from_camera, seen) < novelty_limits().size();
       branch.frames.push_back(step.frame);
-      branch.played.push_back(copy.process(frame));
+      branch.played.push_back(apps::played(copy.process(frame.view())));
     }
     return branch;
   }
@@ -105,7 +74,7 @@ KidnapRun run_kidnaps(const Context& context, const Method& method, const Method
                       const std::function<void()>& advance) {
   FOOTHOLD_EXPECTS(can_be_kidnapped(method) && input.options.num_blackouts == 0);
   const KidnapPlayer player(input, advance);
-  Reconstruction reconstruction(context, make_relocaliser(context, method, inputs));
+  Reconstruction reconstruction = make_reconstruction(context, method, inputs);
   KidnapRun run;
   run.method = method.name;
   for (const Kidnap& kidnap : input.kidnaps) run.kidnaps.push_back({kidnap, false, {}});
@@ -117,8 +86,8 @@ KidnapRun run_kidnaps(const Context& context, const Method& method, const Method
       if (input.kidnaps[i].from == frame_number) branches.push_back(player.branch_off(reconstruction, i, seen, run.kidnaps[i].was_seen));
     }
     const RgbdFrame frame = player.load(frame_number);
-    if (frame_number == 0) reconstruction.start_at(*frame.world_from_camera);
-    poses.push_back(reconstruction.process(frame).world_from_camera);
+    if (frame_number == 0) reconstruction.pipeline().start_at(*frame.world_from_camera);
+    poses.push_back(reconstruction.process(frame.view()).world_from_camera);
     seen.push_back(*frame.world_from_camera);
     run.num_tracked_frames += poses.back().has_value() ? 1 : 0;
   }

@@ -9,17 +9,20 @@
 
 #include "common/peak_memory.h"
 #include "common/progress_bar.h"
+#include "common/reconstruction.h"
 #include "common/unhurried_player.h"
 #include "foothold/base/error.h"
 #include "foothold/fusion/surface_mesh.h"
 #include "foothold/io/sequence.h"
 #include "foothold/io/sequence_player.h"
+#include "foothold/relocalisation/forest_relocaliser.h"
 #include "outside_picture.h"
-#include "reconstruction.h"
 #include "replay_view.h"
 
 namespace foothold::replay {
 namespace {
+
+using apps::Reconstruction;
 
 /// Size of the picture from outside [px].
 constexpr int kPictureWidth = 960;
@@ -29,10 +32,19 @@ constexpr Rgb8 kDark = {4, 4, 4};
 
 double process_cpu_ms() { return 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-PlayedFrame played(const ReplayFrame& frame) {
-  const FusionFrameResult& result = frame.result;
-  const bool believed = result.world_from_camera.has_value() && result.quality == TrackingQuality::kGood;
-  return {result.world_from_camera, believed, result.fused, result.total_ms};
+Forest make_forest(const std::string& choice, const ReplaySettings& settings) {
+  if (choice == "default") return default_forest();
+  if (choice == "random") return make_random_forest(settings.random_forest);
+  return load_forest(choice);
+}
+
+/// @throws InvalidSettings, FileError, DeviceError
+Reconstruction make_reconstruction(const Context& context, const ReplayOptions& options, const ReplaySettings& settings) {
+  if (options.method == "forest") {
+    return {context, settings.fusion, std::make_unique<ForestRelocaliser>(context, make_forest(options.forest, settings), settings.forest)};
+  }
+  if (options.method == "ferns") return {context, settings.fusion, std::make_unique<KeyframeRelocaliser>(context, settings.ferns)};
+  return {context, settings.fusion};
 }
 
 std::string describe(const Kidnap& kidnap) {
@@ -98,7 +110,7 @@ class Replayer {
 };
 
 Reconstruction Replayer::start() const {
-  Reconstruction reconstruction(context_, options_, settings_);
+  Reconstruction reconstruction = make_reconstruction(context_, options_, settings_);
   const std::optional<SE3> first = sequence_->load(indices_.front()).world_from_camera;
   if (first.has_value()) reconstruction.pipeline().start_at(*first);
   return reconstruction;
@@ -223,7 +235,7 @@ void Replayer::judge(ReplayResult& result) const {
     for (const ReplayFrame& frame : frames) {
       const auto place = static_cast<std::size_t>(frame.step.frame);
       const bool known = !frame.step.covered && place < result.undisturbed.frames.size();
-      seen.push_back(played(frame));
+      seen.push_back(apps::played(frame.result));
       reference.push_back(known ? result.undisturbed.frames[place].result.world_from_camera : std::nullopt);
     }
     return judge_kidnap(seen, reference);
