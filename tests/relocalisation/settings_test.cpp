@@ -64,6 +64,8 @@ const Values kTuned = {
     {"pose.num_candidates", "16"},
     {"pose.seed", "42"},
     {"acceptance_threshold", "0.9"},
+    {"num_rolls", "8"},
+    {"sure_confidence", "0.97"},
     {"seed", "42"},
 };
 
@@ -91,6 +93,7 @@ const Values kPaperDiffers = {
     {"pose.alignment_iterations", "0"},
     {"pose.ranking_points", "0"},
     {"pose.projection_points", "0"},
+    {"num_rolls", "1"},
 };
 
 const Values kRandomForest = {

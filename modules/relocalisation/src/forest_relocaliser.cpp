@@ -12,6 +12,7 @@
 #include "foothold/base/binary_stream.h"
 #include "foothold/base/checksum.h"
 #include "foothold/base/contract.h"
+#include "forest/device_forest.h"
 #include "pose/confidence.h"
 #include "pose/explain.h"
 #include "pose/pose_estimator.h"
@@ -23,22 +24,6 @@ namespace {
 constexpr std::uint64_t kSceneMagic = 0x454e454353484fULL;
 constexpr std::uint32_t kSceneVersion = 2;  // 2: checksummed
 constexpr float kRigidTolerance = 1e-2F;
-
-/// The forest's arrays in the device's memory.
-struct DeviceForest {
-  DeviceForest(MemoryKind memory, const Forest& forest)
-      : features(memory, Span<const ForestFeature>(forest.features())),
-        nodes(memory, Span<const ForestNode>(forest.nodes())),
-        roots(memory, Span<const std::int32_t>(forest.roots())),
-        num_leaves(forest.num_leaves()) {}
-
-  ForestView view() const { return {features.data(), nodes.data(), roots.data(), static_cast<int>(roots.size()), num_leaves}; }
-
-  Array<ForestFeature> features;
-  Array<ForestNode> nodes;
-  Array<std::int32_t> roots;
-  int num_leaves;
-};
 
 /// Reads the reservoirs' and modes' bytes, which stand behind their size and checksum, in bounded steps: a lying size must not exhaust
 /// memory.
@@ -78,12 +63,18 @@ struct ForestRelocaliser::State {
       : context(the_context),
         forest(std::move(the_forest)),
         settings(the_settings),
-        device_forest(context.memory(), forest),
+        device_forest(context.memory(), forest, settings.num_rolls),
         image(context),
         examples(context.memory()),
         reservoirs(context, forest.num_leaves(), settings.reservoirs, settings.seed),
         modes(context, forest.num_leaves(), settings.clustering),
         estimator(context, settings.pose) {}
+
+  /// Estimates for the frame in `image`, as seen by a camera with one of the forest's rolls.
+  std::vector<PoseEstimate> attempt(const Frame& frame, int roll);
+  bool is_sure(const std::vector<PoseEstimate>& estimates) const {
+    return !estimates.empty() && estimates.front().confidence >= settings.sure_confidence;
+  }
 
   Context context;
   Forest forest;
@@ -94,7 +85,22 @@ struct ForestRelocaliser::State {
   LeafReservoirs reservoirs;
   LeafModes modes;
   PoseEstimator estimator;
+  int answered_roll = 0;  ///< of the last answer
 };
+
+std::vector<PoseEstimate> ForestRelocaliser::State::attempt(const Frame& frame, int roll) {
+  std::vector<PoseEstimate> estimates;
+  for (const PoseCandidate& candidate :
+       estimator.estimate(context, frame, image, device_forest.view(roll), reservoirs.view(), modes.view())) {
+    SE3 world_from_camera = candidate.scene_from_camera;
+    world_from_camera.rotation = nearest_rotation(world_from_camera.rotation);
+    world_from_camera.translation += reservoirs.origin_world();
+    // Candidates behind the best were not aligned, and must not appear surer than it is.
+    const float confidence = confidence_of(candidate);
+    estimates.push_back({world_from_camera, estimates.empty() ? confidence : std::min(confidence, estimates.front().confidence)});
+  }
+  return estimates;
+}
 
 ForestRelocaliser::ForestRelocaliser(const Context& context, Forest forest, const ForestRelocaliserSettings& settings) {
   settings.validate();
@@ -150,23 +156,23 @@ std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) {
     const ScopedStage stage(s.context, "relocalise/features");
     s.image.compute(s.context, frame, scaled_to_width(s.settings.features.downscale, frame.depth.width));
   }
-  std::vector<PoseEstimate> estimates;
-  for (const PoseCandidate& candidate :
-       s.estimator.estimate(s.context, frame, s.image, s.device_forest.view(), s.reservoirs.view(), s.modes.view())) {
-    SE3 world_from_camera = candidate.scene_from_camera;
-    world_from_camera.rotation = nearest_rotation(world_from_camera.rotation);
-    world_from_camera.translation += s.reservoirs.origin_world();
-    // Candidates behind the best were not aligned, and must not appear surer than it is.
-    const float confidence = confidence_of(candidate);
-    estimates.push_back({world_from_camera, estimates.empty() ? confidence : std::min(confidence, estimates.front().confidence)});
+  s.answered_roll = 0;
+  std::vector<PoseEstimate> best = s.attempt(frame, 0);
+  for (int roll = 1; roll < s.device_forest.num_rolls() && !s.is_sure(best); ++roll) {
+    std::vector<PoseEstimate> estimates = s.attempt(frame, roll);
+    if (estimates.empty() || (!best.empty() && estimates.front().confidence <= best.front().confidence)) continue;
+    best = std::move(estimates);
+    s.answered_roll = roll;
   }
-  return estimates;
+  return best;
 }
 
 Explanation ForestRelocaliser::explain(const Frame& frame) {
   const std::vector<PoseEstimate> estimates = relocalise(frame);
   if (estimates.empty()) return {};
-  return foothold::explain(state_->estimator, estimates, state_->reservoirs.origin_world());
+  State& s = *state_;
+  s.attempt(frame, s.answered_roll);  // a later attempt may have overwritten what the answer was made from
+  return foothold::explain(s.estimator, estimates, s.reservoirs.origin_world());
 }
 
 void ForestRelocaliser::reset() {

@@ -34,6 +34,7 @@ ForestRelocaliserSettings paper_preset() {
   settings.pose.alignment_iterations = 0;
   settings.pose.ranking_points = 0;
   settings.pose.projection_points = 0;
+  settings.num_rolls = 1;
   return settings;
 }
 

@@ -16,6 +16,10 @@ namespace foothold {
 
 /// Adapts a forest to a scene frame by frame (Sec. 2.2.2) and estimates lost cameras from its leaves (Sec. 2.2.3).
 ///
+/// Beyond the paper, a camera that is not surely found is looked for again as one that is rolled about its optical axis, with the offsets
+/// of features turned as far (num_rolls, sure_confidence). So what is found upright is found at any roll, and a frame from nowhere costs
+/// up to num_rolls times as much.
+///
 /// Determinism: the scene is a function of forest, settings and training frames; an answer is a function of the scene and the frame.
 /// Neither depends on threads or device, but for rounding in the pose.
 class ForestRelocaliser final : public Relocaliser, public Persistent {
@@ -30,6 +34,7 @@ class ForestRelocaliser final : public Relocaliser, public Persistent {
   ForestRelocaliser& operator=(const ForestRelocaliser&);
 
   void train(const Frame& frame, const SE3& world_from_camera) override;
+  /// As Relocaliser says; the answer is that of the first roll which is sure, else of the surest one.
   std::vector<PoseEstimate> relocalise(const Frame& frame) override;
   void update() override;
   void reset() override;

@@ -166,6 +166,8 @@ struct ForestRelocaliserSettings {
   ClusteringSettings clustering;
   PoseEstimatorSettings pose;
   float acceptance_threshold = 0.9F;  ///< (T) see src/pose/confidence.h
+  int num_rolls = 8;                  ///< (P) 1, (T) 8: views rolled by 90 deg in rendered rooms, from one in three to nearly all
+  float sure_confidence = 0.97F;      ///< (T) 0.9 stops at more wrong steps of the rolled staircase, 0.99 at no fewer
   std::uint64_t seed = 42;
 
   template <class Visitor>
@@ -176,6 +178,9 @@ struct ForestRelocaliserSettings {
     v(&S::clustering, "clustering");
     v(&S::pose, "pose");
     v(&S::acceptance_threshold, "acceptance_threshold", "Confidence from which a pose should be believed.", Range{0, 1});
+    v(&S::num_rolls, "num_rolls",
+      "Rolls of the camera about its optical axis, evenly spaced, that a relocalisation tries at most, upright first.", Range{1, 36});
+    v(&S::sure_confidence, "sure_confidence", "Confidence from which no further roll is tried.", Range{0, 1});
     v(&S::seed, "seed", "Seed of every random choice of training.", Range{0, 1.8446744073709552e19});
   }
 
