@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/fusion/icp_tracker.h"
 
+#include <cmath>
 #include <limits>
 
 #include "foothold/base/error.h"
@@ -96,6 +97,25 @@ TEST_CASE("IcpTracker: a plane alone is ill-posed in the measures, and moves not
   tracker.set_frame(full.view());
   const TrackingResult in_room = tracker.track(model.map, model.map.camera.world_from_camera);
   REQUIRE((!on_plane.measures.well_posed || on_plane.measures.log_det_total < in_room.measures.log_det_total - 10.0F));
+}
+
+TEST_CASE("IcpTracker: between a wall and a floor, the loosest translation is along both") {
+  Scene corridor;
+  corridor.half_size_m.x() = 6.0;  // its ends are out of sight
+  corridor.sphere_centre_world = {0.0, 0.0, -100.0};
+  const Context context = make_context(1);
+  TsdfVolume volume(context, {});
+  const SE3 pose = test::look_at({0.0F, 0.0F, 0.0F}, {0.3F, 0.9F, 1.5F});
+  const RgbdFrame frame = test::render(corridor, pose);
+  volume.integrate(frame.view(), pose);
+  SurfaceMap map;
+  Raycaster(context).render(volume, test::camera_of(frame), map);
+  IcpTracker tracker(context, small_image_settings());
+  tracker.set_frame(frame.view());
+  const TrackingResult result = tracker.track(map, pose);
+  REQUIRE(result.measures.well_posed);  // voxels are not quite flat
+  REQUIRE(result.loosest_world.norm() == Approx(1.0F));
+  REQUIRE(std::abs(result.loosest_world.x()) > 0.99F);
 }
 
 TEST_CASE("IcpTracker: a frame without depth, or of another place, is judged hopeless but harms nothing") {

@@ -69,6 +69,28 @@ TEST_CASE("PoseRefiner: finds the right candidate behind wrong ones, and refuses
   }
 }
 
+TEST_CASE("PoseRefiner: a pose that slid along the surfaces that hold it least is found again") {
+  PoseRefinerSettings without;
+  without.slide_reach_m = 0.0F;
+  PoseRefiner staying(office_map().context(), without);
+  PoseRefiner sliding(office_map().context());
+  for (const int index : {kSeen + 1, kSeen + 7}) {
+    const RgbdFrame& frame = test::office().frame(index);
+    const SE3& truth = *frame.world_from_camera;
+    const Eigen::Vector3f loosest_world = sliding.refine_one(frame.view(), office_map(), truth).loosest_world;
+    for (const float distance_m : {-0.6F, 0.6F}) {  // beyond what alignment mends
+      SE3 slid = truth;
+      slid.translation += distance_m * loosest_world;
+      const std::vector<PoseEstimate> proposals = {proposal(slid)};
+      REQUIRE_FALSE(staying.refine(frame.view(), office_map(), proposals).front().accepted);
+      const std::vector<RefinedPose> refined = sliding.refine(frame.view(), office_map(), proposals);
+      REQUIRE(refined.front().accepted);
+      REQUIRE(refined.front().candidate == 0);
+      REQUIRE(translation_distance_m(refined.front().world_from_camera, truth) < kFineM);
+    }
+  }
+}
+
 TEST_CASE("PoseRefiner: accepts nothing for a frame of another room, a covered lens or no depth") {
   PoseRefiner refiner(office_map().context());
   std::vector<PoseEstimate> proposals;

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/fusion/icp_tracker.h"
 
+#include <Eigen/Eigenvalues>
+
 #include "foothold/base/error.h"
 #include "icp_ops.h"
 #include "small_cholesky.h"
@@ -63,6 +65,24 @@ bool log_determinant(const IcpState& state, double count, float& result) {
   result = static_cast<float>(sum);
   return true;
 }
+
+/// The unit translation, in the rendering's frame, whose cost grows least when rotation minimises it: the eigenvector of the smallest
+/// eigenvalue of H's Schur complement S = H_tt - H_rt^T H_rr^-1 H_rt.
+Eigen::Vector3f loosest_translation(const IcpState& state) {
+  Eigen::Matrix<double, 6, 6> hessian;
+  int row = 0;
+  for (int a = 0; a < 6; ++a) {
+    for (int b = a; b < 6; ++b, ++row) {
+      hessian(a, b) = state.sums[row];
+      hessian(b, a) = state.sums[row];
+    }
+  }
+  const Eigen::Matrix3d coupling = hessian.topRightCorner<3, 3>();
+  const Eigen::Matrix3d rotation = hessian.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d complement = hessian.bottomRightCorner<3, 3>() - coupling.transpose() * rotation.ldlt().solve(coupling);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(complement);  // eigenvalues rise
+  return solver.eigenvectors().col(0).cast<float>();
+}
 }  // namespace
 
 TrackingResult IcpTracker::track(const SurfaceMap& model, const SE3& guess_world_from_camera) {
@@ -83,6 +103,7 @@ TrackingResult IcpTracker::track(const SurfaceMap& model, const SE3& guess_world
   const auto num_total = static_cast<double>(scratch_->levels[settings_.finest_level].depth.size());
   measures.well_posed =
       log_determinant(state, num_total, measures.log_det_total) && log_determinant(state, num_valid, measures.log_det_valid);
+  if (measures.well_posed) result.loosest_world = model.camera.world_from_camera.rotation * loosest_translation(state);
   if (num_valid > 0.0) {
     measures.inlier_fraction = static_cast<float>(state.sums[kNumHessian + 7] / num_valid);
     const double missing = num_valid - state.sums[kNumHessian + 7];

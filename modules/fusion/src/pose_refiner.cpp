@@ -39,6 +39,8 @@ ClassifierModel with_lenient_poor_threshold(ClassifierModel model) {
 /// Whether colours were compared: not in the dark. Shapes alone do not tell places apart.
 bool has_colour(const ViewAgreement& agreement) { return agreement.colour_correlation != 0.0F; }
 
+bool scores_higher(const RefinedPose& a, const RefinedPose& b) { return a.score > b.score; }
+
 RenderCamera camera_at(const Frame& frame, const SE3& world_from_camera, int divisor) {
   return RenderCamera{frame.calibration.depth, frame.depth.width, frame.depth.height, world_from_camera}.reduced(divisor);
 }
@@ -109,6 +111,7 @@ RefinedPose PoseRefiner::judge(const TrackingMeasures& measures, const ViewAgree
 RefinedPose PoseRefiner::judge_rendered(const TrackingResult& tracked) {
   RefinedPose result = judge(tracked.measures, check_.compare(map_, tracked.world_from_camera));
   result.world_from_camera = tracked.world_from_camera;
+  result.loosest_world = tracked.loosest_world;
   return result;
 }
 
@@ -134,20 +137,27 @@ RefinedPose PoseRefiner::refine_one(const Frame& frame, const TsdfVolume& volume
   return result;
 }
 
-std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals) {
-  if (proposals.empty()) return {};
-  coarse_icp_.set_frame(frame);
-  fine_icp_.set_frame(frame);
-  check_.set_frame(frame);
-  const auto by_score = [](const RefinedPose& a, const RefinedPose& b) { return a.score > b.score; };
+std::vector<PoseEstimate> PoseRefiner::slide(const RefinedPose& pose) const {
+  std::vector<PoseEstimate> starts;
+  if (pose.loosest_world.isZero()) return starts;
+  const int num_steps = static_cast<int>(std::lround(settings_.slide_reach_m / settings_.slide_step_m));
+  for (int i = 1; i <= num_steps; ++i) {
+    const Eigen::Vector3f offset_world = static_cast<float>(i) * settings_.slide_step_m * pose.loosest_world;
+    for (const Eigen::Vector3f& offset : {offset_world, Eigen::Vector3f(-offset_world)}) {
+      starts.push_back({pose.world_from_camera, 0.0F});
+      starts.back().world_from_camera.translation += offset;
+    }
+  }
+  return starts;
+}
+
+std::vector<RefinedPose> PoseRefiner::refine_ranked(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals) {
   const auto contains = [&](const std::vector<RefinedPose>& poses, const SE3& pose) {
     return std::any_of(poses.begin(), poses.end(), [&](const RefinedPose& other) { return is_same(other.world_from_camera, pose); });
   };
-
   std::vector<RefinedPose> candidates;
   std::vector<SE3> seen;
-  const std::size_t num_proposals = std::min(proposals.size(), static_cast<std::size_t>(settings_.max_candidates));
-  for (std::size_t i = 0; i < num_proposals; ++i) {
+  for (std::size_t i = 0; i < proposals.size(); ++i) {
     const SE3& proposal = proposals[i].world_from_camera;
     if (std::any_of(seen.begin(), seen.end(), [&](const SE3& other) { return is_same(other, proposal); })) continue;
     seen.push_back(proposal);
@@ -155,7 +165,7 @@ std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolum
     aligned.candidate = static_cast<int>(i);
     candidates.push_back(aligned);
   }
-  std::stable_sort(candidates.begin(), candidates.end(), by_score);
+  std::stable_sort(candidates.begin(), candidates.end(), scores_higher);
 
   std::vector<RefinedPose> distinct;
   for (const RefinedPose& candidate : candidates) {
@@ -171,12 +181,32 @@ std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolum
     is_found = is_found || aligned.score > classifier_.good_threshold;
     finalists.push_back(aligned);
   }
-  std::stable_sort(finalists.begin(), finalists.end(), by_score);
+  std::stable_sort(finalists.begin(), finalists.end(), scores_higher);
+  return finalists;
+}
+
+std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals) {
+  if (proposals.empty()) return {};
+  coarse_icp_.set_frame(frame);
+  fine_icp_.set_frame(frame);
+  check_.set_frame(frame);
+  const std::size_t num_proposals = std::min(proposals.size(), static_cast<std::size_t>(settings_.max_candidates));
+  std::vector<RefinedPose> finalists = refine_ranked(frame, volume, Span<const PoseEstimate>(proposals.data(), num_proposals));
+  const auto is_good = [&](const RefinedPose& pose) { return pose.score > classifier_.good_threshold; };
+  if (!is_good(finalists.front())) {
+    const int candidate = finalists.front().candidate;
+    for (RefinedPose& slid : refine_ranked(frame, volume, slide(finalists.front()))) {
+      if (!is_good(slid)) continue;  // what is in doubt wherever it slides is best left where the relocaliser saw it
+      slid.candidate = candidate;
+      finalists.push_back(slid);
+    }
+    std::stable_sort(finalists.begin(), finalists.end(), scores_higher);
+  }
 
   RefinedPose& best = finalists.front();
-  best.accepted = has_colour(best.agreement) && best.score > classifier_.good_threshold;
+  best.accepted = has_colour(best.agreement) && is_good(best);
   for (std::size_t i = 1; i < finalists.size(); ++i) {
-    const bool rivals = finalists[i].score > classifier_.good_threshold && finalists[i].score > best.score - settings_.ambiguity_margin;
+    const bool rivals = is_good(finalists[i]) && finalists[i].score > best.score - settings_.ambiguity_margin;
     if (rivals && !is_same(finalists[i].world_from_camera, best.world_from_camera)) best.accepted = false;
   }
   return finalists;

@@ -82,6 +82,9 @@ struct TrackingResult {
   TrackingMeasures measures;
   int num_inliers = 0;
   int num_valid = 0;  ///< pixels with depth, at the finest level
+  /// The translation that the surfaces resist least, rotation being free to follow: along a table top, a corridor. Unit length, in the
+  /// world, either of its two signs; zero unless well_posed.
+  Eigen::Vector3f loosest_world = Eigen::Vector3f::Zero();
 };
 
 /// Projective point-to-plane ICP, coarse to fine, with robust weights and Levenberg-Marquardt damping.

@@ -31,6 +31,10 @@ struct PoseRefinerSettings {
   float ambiguity_margin = 0.5F;
   /// Poses from which less than this part of the frame falls on the map are refused outright: what little there is agrees easily.
   float min_overlap = 0.2F;
+  /// Where nothing is good enough, starts at this distance from one another, up to this far from the best pose, are tried along the
+  /// translation that its surfaces resist least: a view half of which is unmapped slides along a table until all of it is mapped.
+  float slide_step_m = 0.15F;
+  float slide_reach_m = 1.2F;
   IcpSettings icp;
   ViewCheckSettings check;
 
@@ -49,6 +53,10 @@ struct PoseRefinerSettings {
       Range{0.0, 100.0});
     v(&PoseRefinerSettings::min_overlap, "min_overlap", "Part of the frame that must fall on the map (T: train_quality_gate; R: 0.1).",
       Range{0.0, 1.0});
+    v(&PoseRefinerSettings::slide_step_m, "slide_step_m",
+      "Distance of the starts along the loosest direction [m] (T: relocalisation_benchmark, kitchen).", Range{0.01, 1.0});
+    v(&PoseRefinerSettings::slide_reach_m, "slide_reach_m",
+      "How far these go, to both sides [m]; 0 for none (T: relocalisation_benchmark, kitchen).", Range{0.0, 10.0});
     v(&PoseRefinerSettings::icp, "icp");
     v(&PoseRefinerSettings::check, "check");
   }
@@ -64,6 +72,8 @@ struct RefinedPose {
   TrackingMeasures measures;
   ViewAgreement agreement;
   int candidate = 0;  ///< index of the proposal
+  /// Of TrackingResult: the direction in which alignment may have gone astray.
+  Eigen::Vector3f loosest_world = Eigen::Vector3f::Zero();
 };
 
 inline constexpr std::size_t kNumAcceptanceFeatures = 10;
@@ -77,7 +87,8 @@ std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names();
 ///
 /// Every candidate is rendered coarsely, aligned and scored; the best few are rendered finely, aligned twice and judged: depth that agrees,
 /// surfaces that the frame looks through, things in the map's free space, too little overlap, colour, residual and Hessian all count.
-/// Once one of them is good enough, those that looked hopeless coarsely are left out.
+/// Once one of them is good enough, those that looked hopeless coarsely are left out. If none is, the best is moved along the direction in
+/// which its surfaces hold it least, and the same is done with what comes of that.
 class PoseRefiner {
  public:
   /// @throws InvalidSettings
@@ -101,6 +112,10 @@ class PoseRefiner {
   float acceptance_probability() const;
 
  private:
+  /// Ranks coarsely, aligns the best finely; these, by falling score.
+  std::vector<RefinedPose> refine_ranked(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals);
+  /// Starts along the loosest direction of a pose, nearest first; empty where none is known.
+  std::vector<PoseEstimate> slide(const RefinedPose& pose) const;
   RefinedPose align_coarsely(const Frame& frame, const TsdfVolume& volume, const SE3& proposal);
   RefinedPose align_finely(const Frame& frame, const TsdfVolume& volume, const SE3& proposal);
   RefinedPose judge_rendered(const TrackingResult& tracked);
