@@ -11,14 +11,18 @@
 #include <string>
 #include <vector>
 
-#include "clustering/leaf_modes.h"
+#include "relocalisation/clouds.h"
 #include "support/catch.h"
 #include "support/random_seed.h"
 
 namespace foothold {
 namespace {
 
-using Cloud = std::vector<ReservoirPoint>;
+using test::blobs;
+using test::Cloud;
+using test::Leaves;
+using test::point_at;
+using test::random_vector;
 
 /// A cluster as the naive algorithm finds it.
 struct Cluster {
@@ -75,79 +79,11 @@ std::vector<Cluster> naive_quick_shift(const Cloud& cloud, const ClusteringSetti
   return clusters;
 }
 
-/// Reservoirs of one leaf per cloud, and their modes.
-struct Leaves {
-  Leaves(const std::vector<Cloud>& clouds, const ClusteringSettings& settings, int num_threads = 1)
-      : context(options_of(num_threads)),
-        reservoirs(context, static_cast<int>(clouds.size()), reservoirs_of(), 42),
-        modes(context, static_cast<int>(clouds.size()), settings) {
-    TrainingExamples examples(MemoryKind::kHost);
-    std::size_t count = 0;
-    for (const Cloud& cloud : clouds) count += cloud.size();
-    examples.points.resize(count);
-    examples.leaves.resize(count);
-    std::size_t next = 0;
-    for (std::size_t leaf = 0; leaf < clouds.size(); ++leaf) {
-      for (const ReservoirPoint& point : clouds[leaf]) {
-        examples.points[next] = point;
-        examples.leaves[next++] = static_cast<std::uint32_t>(leaf);
-      }
-    }
-    reservoirs.insert(context, examples);
-  }
-
-  std::vector<Mode> modes_of(std::size_t leaf) {
-    const LeafModesView view = modes.view();
-    std::vector<Mode> result;
-    for (std::uint32_t k = 0; k < view.num_modes[leaf]; ++k) {
-      result.push_back(view.modes.at(static_cast<std::uint32_t>(leaf), static_cast<int>(k)));
-    }
-    return result;
-  }
-  void update() { modes.update(context, reservoirs); }
-
-  static ContextOptions options_of(int num_threads) {
-    ContextOptions options;
-    options.num_threads = num_threads;
-    return options;
-  }
-  static ReservoirSettings reservoirs_of() {
-    ReservoirSettings settings;
-    settings.capacity = 1024;
-    return settings;
-  }
-
-  Context context;
-  LeafReservoirs reservoirs;
-  LeafModes modes;
-};
-
 /// The modes of one cloud.
 std::vector<Mode> modes_of(const Cloud& cloud, const ClusteringSettings& settings) {
   Leaves leaves({cloud}, settings);
   leaves.update();
   return leaves.modes_of(0);
-}
-
-ReservoirPoint point_at(const Eigen::Vector3f& p_mm, std::uint16_t rgb565 = 0) {
-  return {static_cast<std::int16_t>(std::lround(p_mm.x())), static_cast<std::int16_t>(std::lround(p_mm.y())),
-          static_cast<std::int16_t>(std::lround(p_mm.z())), rgb565};
-}
-
-Eigen::Vector3f random_vector(Random& random, float size) {
-  return {random.uniform(-size, size), random.uniform(-size, size), random.uniform(-size, size)};
-}
-
-/// Blobs a metre apart, each within 2 cm of its middle, shuffled; no two of a size.
-Cloud blobs(Random& random, int num_blobs, int smallest) {
-  Cloud cloud;
-  const Eigen::Vector3f corner = random_vector(random, 8000.0F);
-  for (int blob = 0; blob < num_blobs; ++blob) {
-    const Eigen::Vector3f middle = corner + 1000.0F * Eigen::Vector3f(static_cast<float>(blob % 3), static_cast<float>(blob / 3), 0.0F);
-    for (int i = 0; i < smallest + 3 * blob; ++i) cloud.push_back(point_at(middle + random_vector(random, 20.0F)));
-  }
-  for (std::size_t i = cloud.size(); i > 1; --i) std::swap(cloud[i - 1], cloud[random.below(static_cast<std::uint32_t>(i))]);
-  return cloud;
 }
 
 Eigen::Matrix3d precision_of(const Mode& mode) {
@@ -272,59 +208,6 @@ TEST_CASE("LeafModes: the same whatever the number of threads") {
     if (num_threads == 1) expected = stream.str();
     REQUIRE((stream.str() == expected));
   }
-}
-
-/// Which leaves have modes.
-std::vector<bool> renewed(Leaves& leaves) {
-  std::vector<bool> result;
-  for (int leaf = 0; leaf < leaves.reservoirs.view().num_leaves; ++leaf) result.push_back(leaves.modes.view().num_modes[leaf] > 0);
-  return result;
-}
-
-TEST_CASE("LeafModes::update: round robin visits the leaves in turn") {
-  Random random = test::test_random();
-  std::vector<Cloud> clouds;
-  for (int i = 0; i < 7; ++i) clouds.push_back(blobs(random, 1, 20));
-  ClusteringSettings settings;
-  settings.touched_first = false;
-  settings.leaves_per_frame = 3;
-  Leaves leaves(clouds, settings);
-  leaves.update();
-  REQUIRE(renewed(leaves) == std::vector<bool>{true, true, true, false, false, false, false});
-  leaves.update();
-  REQUIRE(renewed(leaves) == std::vector<bool>{true, true, true, true, true, true, false});
-  leaves.update();
-  REQUIRE(renewed(leaves) == std::vector<bool>(7, true));
-}
-
-TEST_CASE("LeafModes::update: touched first renews the leaves that changed most") {
-  Random random = test::test_random();
-  std::vector<Cloud> clouds;
-  for (const int size : {20, 50, 0, 40, 10, 30, 7}) clouds.push_back(size == 0 ? Cloud{} : blobs(random, 1, size));
-  ClusteringSettings settings;
-  settings.leaves_per_frame = 2;
-  Leaves leaves(clouds, settings);
-  leaves.update();
-  REQUIRE(renewed(leaves) == std::vector<bool>{false, true, false, true, false, false, false});
-  REQUIRE(leaves.reservoirs.view().num_changed[1] == 0);
-  REQUIRE(leaves.reservoirs.view().num_changed[5] == 30);
-  leaves.update();
-  REQUIRE(renewed(leaves) == std::vector<bool>{true, true, false, true, false, true, false});
-  leaves.update();
-  REQUIRE(renewed(leaves) == std::vector<bool>{true, true, false, true, true, true, false});
-}
-
-TEST_CASE("LeafModes::update: no leaf is begun beyond the point budget") {
-  Random random = test::test_random();
-  std::vector<Cloud> clouds;
-  for (int i = 0; i < 5; ++i) clouds.push_back(blobs(random, 1, 50 - 5 * i));
-  ClusteringSettings settings;
-  settings.point_budget = 51;  // the first leaf leaves 1 point, which the second overdraws
-  Leaves leaves(clouds, settings);
-  leaves.update();
-  REQUIRE(renewed(leaves) == std::vector<bool>{true, true, false, false, false});
-  leaves.update();
-  REQUIRE(renewed(leaves) == std::vector<bool>{true, true, true, true, false});
 }
 
 }  // namespace

@@ -184,6 +184,14 @@ TEST_CASE("ForestRelocaliserSettings: validate names fields that contradict each
   message = test::error_message<InvalidSettings>([&] { settings.validate(); });
   REQUIRE(test::contains(message, "pose.cull_samples"));
   REQUIRE(test::contains(message, "pose.pool_size = 499"));
+  settings = {};
+  settings.clustering.min_cluster_size = 113;
+  message = test::error_message<InvalidSettings>([&] { settings.validate(); });
+  REQUIRE(test::contains(message, "clustering.min_cluster_size"));
+  REQUIRE(test::contains(message, "113"));
+  REQUIRE(test::contains(message, "reservoirs.capacity = 112"));
+  settings.clustering.min_cluster_size = 112;
+  REQUIRE_NOTHROW(settings.validate());
 }
 
 }  // namespace

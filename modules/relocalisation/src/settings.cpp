@@ -48,6 +48,11 @@ ForestRelocaliserSettings ForestRelocaliserSettings::preset(const std::string& n
 
 void ForestRelocaliserSettings::validate() const {
   validate_settings(*this);
+  if (clustering.min_cluster_size > reservoirs.capacity) {
+    throw InvalidSettings("setting clustering.min_cluster_size: got " + std::to_string(clustering.min_cluster_size) +
+                          ", expected at most reservoirs.capacity = " + std::to_string(reservoirs.capacity) +
+                          ", since no leaf could ever have a mode");
+  }
   if (pose.first_cull_samples > pose.cull_samples) {
     throw InvalidSettings("setting pose.first_cull_samples: got " + std::to_string(pose.first_cull_samples) +
                           ", expected at most pose.cull_samples = " + std::to_string(pose.cull_samples));
