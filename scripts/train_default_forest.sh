@@ -20,7 +20,8 @@ if [[ ! -x "$programs/train_forest" ]]; then
   exit 2
 fi
 
-# The commit whose trainer and rooms made the file, for its provenance; name a newer one when it is trained anew with changed ones.
+# The commit whose trainer and rooms made the file, for its provenance; name a newer one when it is trained anew with changed ones. Named
+# by hand because the file holds it: taken from the history, any later commit that touches the trainer, a comment even, would change the bytes.
 commit=fd0d81d
 
 rooms=()
