@@ -13,13 +13,8 @@
 namespace foothold {
 namespace {
 
+using test::make_context;
 using test::Scene;
-
-Context make_context(int num_threads) {
-  ContextOptions options;
-  options.num_threads = num_threads;
-  return Context(options);
-}
 
 /// The images of these tests have half the size of a camera's.
 IcpSettings small_image_settings() {
@@ -158,6 +153,44 @@ TEST_CASE("IcpTracker: identical for any number of threads") {
     REQUIRE(result.measures.log_det_total == one.measures.log_det_total);
     REQUIRE(result.measures.residual_m == one.measures.residual_m);
   }
+}
+
+TEST_CASE("IcpTracker: several alignments at once end where each ends alone") {
+  const Scene scene;
+  const Context context = make_context();
+  const TsdfVolume volume = test::fused_arc(context, scene, 12);
+  const RgbdFrame frame = test::render(scene, test::pose_on_arc(0.5F));
+  IcpTracker tracker(context, small_image_settings());
+  tracker.set_frame(frame.view());
+  Random random = test::test_random();
+  std::vector<SE3> guesses;
+  for (int i = 0; i < 4; ++i) guesses.push_back(*frame.world_from_camera * test::random_motion(random, 0.05F, 0.05F));
+  guesses.push_back(test::look_at({0.0F, 0.0F, 20.0F}, {0.0F, 0.0F, 30.0F}));  // sees nothing
+  const Array<SE3> starts(MemoryKind::kHost, Span<const SE3>(guesses));
+  SurfaceMap models;
+  Raycaster raycaster(context);
+  raycaster.render_all(volume, test::camera_of(frame), starts, models);
+  tracker.align_all(models, starts);
+  HostReads reads;
+  tracker.queue_results(reads);
+  reads.wait(context);
+  const std::vector<TrackingResult> together = tracker.results();
+  REQUIRE(together.size() == guesses.size());
+  REQUIRE(tracker.world_from_cameras().size() == guesses.size());
+  for (std::size_t i = 0; i < guesses.size(); ++i) {
+    RenderCamera camera = test::camera_of(frame);
+    camera.world_from_camera = guesses[i];
+    SurfaceMap model;
+    raycaster.render(volume, camera, model);
+    const TrackingResult alone = tracker.track(model, guesses[i]);
+    REQUIRE(together[i].world_from_camera.rotation == alone.world_from_camera.rotation);
+    REQUIRE(together[i].world_from_camera.translation == alone.world_from_camera.translation);
+    REQUIRE(together[i].measures.well_posed == alone.measures.well_posed);
+    REQUIRE(together[i].measures.residual_m == alone.measures.residual_m);
+    REQUIRE(together[i].num_inliers == alone.num_inliers);
+    REQUIRE(is_rigid(together[i].world_from_camera, 1e-6F));
+  }
+  REQUIRE_FALSE(together.back().measures.well_posed);
 }
 
 TEST_CASE("IcpSettings: defaults validate, and each constraint is enforced") {

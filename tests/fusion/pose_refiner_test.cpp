@@ -115,6 +115,24 @@ TEST_CASE("PoseRefiner: accepts nothing where the map is empty, or without propo
   REQUIRE(refiner.refine(frame.view(), office_map(), std::vector<PoseEstimate>{}).empty());
 }
 
+TEST_CASE("PoseRefiner: what becomes of a pose does not depend on those that are refined with it") {
+  PoseRefiner refiner(office_map().context());
+  const RgbdFrame& frame = test::office().frame(kSeen + 1);
+  Random random = test::test_random();
+  std::vector<PoseEstimate> proposals;
+  for (int i = 0; i < 6; ++i) proposals.push_back(proposal(test::office().pose(8 * i) * test::random_motion(random, 0.05F, 0.05F)));
+  const std::vector<RefinedPose> together = refiner.refine(frame.view(), office_map(), proposals);
+  REQUIRE_FALSE(together.empty());
+  for (const RefinedPose& refined : together) {
+    const std::vector<PoseEstimate> alone = {proposals[static_cast<std::size_t>(refined.candidate)]};
+    const std::vector<RefinedPose> expected = refiner.refine(frame.view(), office_map(), alone);
+    REQUIRE(expected.size() == 1);
+    REQUIRE(refined.score == expected.front().score);
+    REQUIRE(refined.world_from_camera.rotation == expected.front().world_from_camera.rotation);
+    REQUIRE(refined.world_from_camera.translation == expected.front().world_from_camera.translation);
+  }
+}
+
 TEST_CASE("PoseRefiner: identical for any number of threads") {
   std::vector<RefinedPose> one;
   for (const int num_threads : {1, 2, 4}) {

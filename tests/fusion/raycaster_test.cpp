@@ -12,13 +12,8 @@
 namespace foothold {
 namespace {
 
+using test::make_context;
 using test::Scene;
-
-Context make_context(int num_threads) {
-  ContextOptions options;
-  options.num_threads = num_threads;
-  return Context(options);
-}
 
 TEST_CASE("Raycaster: depth and normals are those of the scene, from poses that no frame was taken from") {
   const Scene scene;
@@ -97,6 +92,28 @@ TEST_CASE("Raycaster: identical for any number of threads") {
     const std::vector<SurfacePixel> pixels = map.pixels.to_host();
     if (num_threads == 1) one = pixels;
     REQUIRE(std::memcmp(pixels.data(), one.data(), one.size() * sizeof(SurfacePixel)) == 0);
+  }
+}
+
+TEST_CASE("Raycaster: several poses at once show what each shows alone") {
+  const Context context = make_context();
+  const TsdfVolume volume = test::fused_arc(context, Scene{}, 3);
+  Raycaster raycaster(context);
+  RenderCamera camera{{75.0F, 75.0F, 60.0F, 40.0F}, 121, 81, SE3{}};
+  const std::vector<SE3> poses = {test::pose_on_arc(0.4F), test::look_at({0.0F, 0.0F, 20.0F}, {0.0F, 0.0F, 30.0F}),
+                                  test::pose_on_arc(0.9F)};
+  SurfaceMap together;
+  raycaster.render_all(volume, camera, Array<SE3>(MemoryKind::kHost, Span<const SE3>(poses)), together, true);
+  REQUIRE(together.num_renderings() == poses.size());
+  REQUIRE(together.colours.size() == together.pixels.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    SurfaceMap alone;
+    camera.world_from_camera = poses[i];
+    raycaster.render(volume, camera, alone, true);
+    const std::size_t count = alone.pixels.size();
+    REQUIRE(together.pixels.size() == poses.size() * count);
+    REQUIRE(std::memcmp(together.pixels.data() + i * count, alone.pixels.data(), count * sizeof(SurfacePixel)) == 0);
+    REQUIRE(std::memcmp(together.colours.data() + i * count, alone.colours.data(), count * sizeof(Rgb8)) == 0);
   }
 }
 

@@ -35,6 +35,12 @@ double Scene::distance_m(const Eigen::Vector3d& point_world) const {
   return distance;
 }
 
+Context make_context(int num_threads) {
+  ContextOptions options;
+  options.num_threads = num_threads;
+  return Context(options);
+}
+
 RgbdFrame render(const Scene& scene, const SE3& world_from_camera, int width, int height) {
   RgbdFrame frame;
   const float focal = 0.5F * static_cast<float>(width);

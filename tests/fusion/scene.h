@@ -13,6 +13,9 @@
 
 namespace foothold::test {
 
+/// A context on the host.
+Context make_context(int num_threads = 1);
+
 /// A room of [-1.5, 1.5] x [-1.2, 1.2] x [-1.5, 1.5] m around the origin, y down, with a sphere of radius 0.4 m.
 struct Scene {
   Eigen::Vector3d half_size_m{1.5, 1.2, 1.5};

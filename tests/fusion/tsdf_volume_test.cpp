@@ -14,13 +14,8 @@
 namespace foothold {
 namespace {
 
+using test::make_context;
 using test::Scene;
-
-Context make_context(int num_threads) {
-  ContextOptions options;
-  options.num_threads = num_threads;
-  return Context(options);
-}
 
 std::string bytes_of(const TsdfVolume& volume) {
   std::ostringstream stream;

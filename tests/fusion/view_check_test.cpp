@@ -10,13 +10,8 @@
 namespace foothold {
 namespace {
 
+using test::make_context;
 using test::Scene;
-
-Context make_context(int num_threads = 1) {
-  ContextOptions options;
-  options.num_threads = num_threads;
-  return Context(options);
-}
 
 /// A map of the scene, rendered in colour from the middle of the arc.
 struct Model {
@@ -103,6 +98,38 @@ TEST_CASE("ViewCheck: a frame without depth gives zeros") {
   REQUIRE(view.overlap == 0.0F);
   REQUIRE(view.agreement == 0.0F);
   REQUIRE(view.difference == 0.0F);
+}
+
+TEST_CASE("ViewCheck: several comparisons at once find what each finds alone") {
+  const Context context = make_context();
+  const Model model(context);
+  const std::vector<SE3> poses = {model.pose, test::pose_on_arc(0.6F), test::look_at({0.0F, 0.0F, 20.0F}, {0.0F, 0.0F, 30.0F})};
+  const Array<SE3> starts(MemoryKind::kHost, Span<const SE3>(poses));
+  SurfaceMap models;
+  Raycaster(context).render_all(model.volume, model.map.camera, starts, models, true);
+  const RgbdFrame frame = test::render(Scene{}, model.pose);
+  ViewCheck check(context);
+  check.set_frame(frame.view());
+  check.compare_all(models, starts);
+  HostReads reads;
+  check.queue_results(reads);
+  reads.wait(context);
+  const std::vector<ViewAgreement> together = check.results();
+  REQUIRE(together.size() == poses.size());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    RenderCamera camera = model.map.camera;
+    camera.world_from_camera = poses[i];
+    SurfaceMap map;
+    Raycaster(context).render(model.volume, camera, map, true);
+    const ViewAgreement alone = check.compare(map, poses[i]);
+    REQUIRE(together[i].num_valid == alone.num_valid);
+    REQUIRE(together[i].overlap == alone.overlap);
+    REQUIRE(together[i].difference == alone.difference);
+    REQUIRE(together[i].colour_correlation == alone.colour_correlation);
+    REQUIRE(together[i].texture_correlation == alone.texture_correlation);
+  }
+  REQUIRE(together.front().overlap > 0.97F);
+  REQUIRE(together.back().overlap == 0.0F);
 }
 
 TEST_CASE("ViewCheck: identical for any number of threads") {

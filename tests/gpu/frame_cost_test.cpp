@@ -4,10 +4,13 @@
 #include <vector>
 
 #include "foothold/api/frame_uploader.h"
+#include "foothold/fusion/fusion_pipeline.h"
+#include "fusion/scene.h"
 #include "gpu/device.h"
 #include "relocalisation/scenes.h"
 #include "support/catch.h"
 #include "support/emulated_cuda/emulated_cuda.h"
+#include "support/random_seed.h"
 
 namespace foothold {
 namespace {
@@ -58,6 +61,73 @@ TEST_CASE("frame cost: training allocates nothing and never waits, relocalising 
   REQUIRE(device.counts().num_device_waits == 0);
   INFO("relocalising: " << device.counts().num_launches << " launches");
   REQUIRE(device.counts().num_launches < 80 * num_rolls);
+}
+
+/// A pipeline for images of a quarter of a camera's size, with a map that the emulated device has the patience for.
+FusionSettings small_fusion() {
+  FusionSettings settings;
+  settings.volume.voxel_size_m = 0.04F;
+  settings.volume.truncation_m = 0.12F;
+  settings.render_divisor = 1;
+  settings.icp.coarsest_level = 1;  // as many levels as by default
+  settings.icp.finest_level = 0;
+  settings.refiner.coarse_divisor = 4;
+  settings.refiner.fine_divisor = 2;
+  settings.refiner.check.stride_px = 4;
+  return settings;
+}
+
+TEST_CASE("frame cost: a fused frame allocates nothing and waits twice, for its pose and for the number of new blocks") {
+  const Context context = test::context_on(Device::kCuda);
+  FrameUploader uploader(context);
+  FusionPipeline pipeline(context, small_fusion(), nullptr);
+  pipeline.start_at(test::pose_on_arc(0.3F));
+  const auto frame_at = [](int i) {
+    return test::render(test::Scene{}, test::pose_on_arc(0.3F + 0.02F * static_cast<float>(i)), 160, 120);
+  };
+  for (int i = 0; i < 2; ++i) pipeline.process(uploader.upload(frame_at(i).view()));
+  const int num_blocks = pipeline.volume().num_blocks();
+
+  EmulatedCuda& device = EmulatedCuda::instance();
+  device.reset_counts();
+  const FusionFrameResult result = pipeline.process(uploader.upload(frame_at(2).view()));
+  REQUIRE(result.fused);
+  REQUIRE(pipeline.volume().num_blocks() > num_blocks);
+  REQUIRE(device.counts().num_allocations == 0);
+  REQUIRE(device.counts().num_frees == 0);
+  REQUIRE(device.counts().num_waits == 2);
+  REQUIRE(device.counts().num_device_waits == 0);
+  REQUIRE(device.counts().num_writes == 4);  // depth, colour, the guess, the pose to render from
+  INFO("a fused frame: " << device.counts().num_launches << " launches");
+  REQUIRE(device.counts().num_launches < 100);
+}
+
+TEST_CASE("frame cost: refining 16 candidates allocates nothing and waits twice, once for all of them and once for the finalists") {
+  const Context context = test::context_on(Device::kCuda);
+  const FusionSettings settings = small_fusion();
+  FrameUploader uploader(context);
+  TsdfVolume volume(context, settings.volume);
+  const RgbdFrame recorded = test::render(test::Scene{}, test::pose_on_arc(0.45F), 160, 120);
+  volume.integrate(uploader.upload(recorded.view()), *recorded.world_from_camera);
+  Random random = test::test_random();
+  std::vector<PoseEstimate> proposals;
+  while (proposals.size() < 16) proposals.push_back({*recorded.world_from_camera * test::random_motion(random, 0.3F, 0.3F), 0.5F});
+  PoseRefiner refiner(context, settings.refiner);
+  const Frame frame = uploader.upload(recorded.view());
+  const std::vector<RefinedPose> first = refiner.refine(frame, volume, proposals);
+
+  EmulatedCuda& device = EmulatedCuda::instance();
+  device.reset_counts();
+  const std::vector<RefinedPose> second = refiner.refine(frame, volume, proposals);
+  REQUIRE(second.size() == first.size());
+  REQUIRE(second.front().accepted);
+  REQUIRE(device.counts().num_allocations == 0);
+  REQUIRE(device.counts().num_frees == 0);
+  REQUIRE(device.counts().num_waits == 2);
+  REQUIRE(device.counts().num_device_waits == 0);
+  REQUIRE(device.counts().num_writes == 2);  // the candidates' poses, and the finalists'
+  INFO("refining: " << device.counts().num_launches << " launches");
+  REQUIRE(device.counts().num_launches < 200);
 }
 
 }  // namespace

@@ -88,16 +88,27 @@ TEST_CASE("CUDA: maps copy from host to device and back unchanged, and grow on a
   REQUIRE(on_device.integrate(uploader.upload(frame.view()), test::pose_on_arc(0.9F)).num_new_blocks > 0);
 }
 
+/// One map on both devices, and what the same camera sees of it.
+struct TwoViews {
+  Context host = test::context_on(Device::kCpu);
+  Context device = test::context_on(Device::kCuda);
+  TsdfVolume map = map_on(host, 3);
+  TsdfVolume map_on_device{map, device};
+  RenderCamera camera = test::camera_of(test::render(test::Scene{}, test::pose_on_arc(0.4F), 160, 120));
+  SurfaceMap expected{host.memory()};
+  SurfaceMap actual{device.memory()};
+
+  TwoViews() {
+    Raycaster(host).render(map, camera, expected, true);
+    Raycaster(device).render(map_on_device, camera, actual, true);
+  }
+};
+
 TEST_CASE("CUDA: a rendering shows the CPU's depths and normals") {
-  const Context host = test::context_on(Device::kCpu);
-  const Context device = test::context_on(Device::kCuda);
-  const TsdfVolume map = map_on(host, 3);
-  const TsdfVolume on_device(map, device);
-  const RenderCamera camera = test::camera_of(test::render(test::Scene{}, test::pose_on_arc(0.4F), 160, 120));
-  SurfaceMap expected(host.memory());
-  SurfaceMap actual(device.memory());
-  Raycaster(host).render(map, camera, expected, true);
-  Raycaster(device).render(on_device, camera, actual, true);
+  const TwoViews views;
+  const Context& device = views.device;
+  const SurfaceMap& expected = views.expected;
+  const SurfaceMap& actual = views.actual;
   const std::vector<SurfacePixel> left = actual.pixels.to_host(device);
   const std::vector<Rgb8> colours = actual.colours.to_host(device);
   REQUIRE(left.size() == expected.pixels.size());
@@ -117,28 +128,21 @@ TEST_CASE("CUDA: a rendering shows the CPU's depths and normals") {
 }
 
 TEST_CASE("CUDA: tracking gives the CPU's poses and measures") {
-  const Context host = test::context_on(Device::kCpu);
-  const Context device = test::context_on(Device::kCuda);
-  const TsdfVolume map = map_on(host, 3);
-  const TsdfVolume on_device(map, device);
-  const RenderCamera camera = test::camera_of(test::render(test::Scene{}, test::pose_on_arc(0.4F), 160, 120));
-  SurfaceMap host_view(host.memory());
-  SurfaceMap device_view(device.memory());
-  Raycaster(host).render(map, camera, host_view);
-  Raycaster(device).render(on_device, camera, device_view);
+  const TwoViews views;
+  const SE3& start = views.camera.world_from_camera;
   IcpSettings settings;
   settings.coarsest_level = 2;
   settings.finest_level = 0;
-  IcpTracker host_tracker(host, settings);
-  IcpTracker device_tracker(device, settings);
-  FrameUploader uploader(device);
+  IcpTracker host_tracker(views.host, settings);
+  IcpTracker device_tracker(views.device, settings);
+  FrameUploader uploader(views.device);
   Random random = test::test_random();
   for (int i = 0; i < 4; ++i) {
-    const RgbdFrame frame = test::render(test::Scene{}, camera.world_from_camera * test::random_motion(random, 0.03F, 0.02F), 160, 120);
+    const RgbdFrame frame = test::render(test::Scene{}, start * test::random_motion(random, 0.03F, 0.02F), 160, 120);
     host_tracker.set_frame(frame.view());
     device_tracker.set_frame(uploader.upload(frame.view()));
-    const TrackingResult expected = host_tracker.track(host_view, camera.world_from_camera);
-    const TrackingResult actual = device_tracker.track(device_view, camera.world_from_camera);
+    const TrackingResult expected = host_tracker.track(views.expected, start);
+    const TrackingResult actual = device_tracker.track(views.actual, start);
     REQUIRE(translation_distance_m(actual.world_from_camera, expected.world_from_camera) < kPoseTolerance_m);
     REQUIRE(rotation_distance_rad(actual.world_from_camera, expected.world_from_camera) < kPoseTolerance_rad);
     REQUIRE(actual.measures.well_posed == expected.measures.well_posed);
@@ -168,6 +172,45 @@ TEST_CASE("CUDA: the view check finds the CPU's agreement") {
   REQUIRE(std::abs(agreements[1].behind - agreements[0].behind) < kTolerance);
   REQUIRE(std::abs(agreements[1].difference - agreements[0].difference) < kTolerance);
   REQUIRE(std::abs(agreements[1].colour_correlation - agreements[0].colour_correlation) < kTolerance);
+}
+
+TEST_CASE("CUDA: candidates refined in one batch end where the CPU's end, with its scores and decisions") {
+  const RgbdFrame frame = test::render(test::Scene{}, test::pose_on_arc(0.45F), 160, 120);
+  PoseRefinerSettings settings;  // for images of a quarter of a camera's size
+  settings.coarse_divisor = 2;
+  settings.fine_divisor = 1;
+  settings.check.stride_px = 2;
+  Random random = test::test_random();
+  const auto sees_nothing = [](float x) { return PoseEstimate{test::look_at({x, 0.0F, 20.0F}, {x, 0.0F, 30.0F}), 0.5F}; };
+  std::vector<PoseEstimate> near = {sees_nothing(0.0F)};
+  for (int i = 0; i < 4; ++i) near.push_back({*frame.world_from_camera * test::random_motion(random, 0.15F, 0.15F), 0.5F});
+  const std::vector<PoseEstimate> hopeless = {sees_nothing(1.0F), sees_nothing(2.0F)};
+  std::vector<std::vector<RefinedPose>> results;
+  for (const Device device : {Device::kCpu, Device::kCuda}) {
+    const Context context = test::context_on(device);
+    const TsdfVolume map = map_on(context, 3);
+    FrameUploader uploader(context);
+    PoseRefiner refiner(context, settings);
+    const Frame uploaded = uploader.upload(frame.view());
+    results.push_back(refiner.refine(uploaded, map, near));
+    const std::vector<RefinedPose> refused = refiner.refine(uploaded, map, hopeless);
+    REQUIRE(refused.size() == hopeless.size());
+    for (const RefinedPose& pose : refused) REQUIRE_FALSE(pose.accepted);
+  }
+  constexpr float kScoreTolerance = 0.05F;
+  REQUIRE_FALSE(results[0].empty());
+  REQUIRE(results[0].front().accepted);
+  REQUIRE(results[1].size() == results[0].size());
+  for (std::size_t i = 0; i < results[0].size(); ++i) {
+    const RefinedPose& expected = results[0][i];
+    const RefinedPose& actual = results[1][i];
+    INFO("finalist " << i << ", candidate " << expected.candidate);
+    REQUIRE(actual.candidate == expected.candidate);
+    REQUIRE(actual.accepted == expected.accepted);
+    REQUIRE((actual.score == expected.score || std::abs(actual.score - expected.score) < kScoreTolerance));  // minus infinity is equal
+    REQUIRE(translation_distance_m(actual.world_from_camera, expected.world_from_camera) < kPoseTolerance_m);
+    REQUIRE(rotation_distance_rad(actual.world_from_camera, expected.world_from_camera) < kPoseTolerance_rad);
+  }
 }
 
 TEST_CASE("CUDA: the pipeline tracks, judges and fuses as the CPU's does") {

@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "cuda_backend.h"
+#include "foothold/base/array.h"
 #include "foothold/base/error.h"
 
 namespace foothold {
@@ -48,10 +49,15 @@ void Context::synchronise() const {
 void* detail::cuda_scratch(const Context& context, std::size_t num_bytes) { return context.state_->cuda->scratch(num_bytes); }
 
 void detail::read_memory(const Context& context, void* host, const void* device, std::size_t num_bytes) {
+  const MemoryRead read{host, device, num_bytes};
+  read_memory(context, Span<const MemoryRead>(&read, 1));
+}
+
+void detail::read_memory(const Context& context, Span<const MemoryRead> reads) {
   if (context.state_->cuda) {
-    context.state_->cuda->read(host, device, num_bytes);
+    context.state_->cuda->read(reads);
   } else {
-    std::memcpy(host, device, num_bytes);
+    for (const MemoryRead& read : reads) std::memcpy(read.host, read.device, read.num_bytes);
   }
 }
 

@@ -65,11 +65,21 @@ class CudaStreamImpl final : public CudaStream {
     return scratch_;
   }
   void synchronise() const override { FOOTHOLD_CUDA_CHECK(cudaStreamSynchronize(stream_)); }
-  void read(void* host, const void* device, std::size_t num_bytes) override {
-    void* const pinned = read_buffer_.reserve(num_bytes);
-    FOOTHOLD_CUDA_CHECK(cudaMemcpyAsync(pinned, device, num_bytes, cudaMemcpyDeviceToHost, stream_));
+  void read(Span<const MemoryRead> reads) override {
+    std::size_t num_bytes = 0;
+    for (const MemoryRead& read : reads) num_bytes += read.num_bytes;
+    auto* const pinned = static_cast<unsigned char*>(read_buffer_.reserve(num_bytes));
+    std::size_t offset = 0;
+    for (const MemoryRead& read : reads) {
+      FOOTHOLD_CUDA_CHECK(cudaMemcpyAsync(pinned + offset, read.device, read.num_bytes, cudaMemcpyDeviceToHost, stream_));
+      offset += read.num_bytes;
+    }
     synchronise();
-    std::memcpy(host, pinned, num_bytes);
+    offset = 0;
+    for (const MemoryRead& read : reads) {
+      std::memcpy(read.host, pinned + offset, read.num_bytes);
+      offset += read.num_bytes;
+    }
   }
   void write(void* device, const void* host, std::size_t num_bytes) override {
     Writing& writing = writings_[next_writing_];

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "foothold/base/array.h"
+
 namespace foothold::detail {
 
 /// A CUDA stream with its scratch memory.
@@ -17,8 +19,8 @@ class CudaStream {
   virtual void* stream() const = 0;
   virtual void* scratch(std::size_t num_bytes) = 0;
   virtual void synchronise() const = 0;
-  /// Device to host in stream order, through page-locked memory; waits for the copy.
-  virtual void read(void* host, const void* device, std::size_t num_bytes) = 0;
+  /// Device to host in stream order, through page-locked memory; waits for the copies, once.
+  virtual void read(Span<const MemoryRead> reads) = 0;
   /// Host to device in stream order, through page-locked memory; waits at most for a write of some calls before.
   virtual void write(void* device, const void* host, std::size_t num_bytes) = 0;
 };

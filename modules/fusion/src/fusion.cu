@@ -2,21 +2,4 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/base/exec/cuda_executor.cuh"
 
-#include "icp_kernels.h"
-#include "raycaster_kernels.h"
-#include "tsdf_kernels.h"
-#include "view_check_kernels.h"
-
-namespace foothold {
-
-template <>
-struct ExecutorOf<Device::kCuda> {
-  using Type = CudaExecutor;
-};
-
-template struct TsdfOps<Device::kCuda>;
-template struct RaycasterOps<Device::kCuda>;
-template struct IcpOps<Device::kCuda>;
-template struct ViewCheckOps<Device::kCuda>;
-
-}  // namespace foothold
+#include "cuda_ops.h"

@@ -36,7 +36,8 @@ FusionPipeline::FusionPipeline(const Context& context, const FusionSettings& set
       check_(context, settings.refiner.check),
       refiner_(context, settings.refiner),
       policy_(settings.recovery),
-      rendering_(context.memory()) {
+      rendering_(context.memory()),
+      guess_(context.memory()) {
   settings.validate();
 }
 
@@ -125,15 +126,23 @@ void FusionPipeline::follow(const Frame& frame, bool well_formed, bool may_track
 
 void FusionPipeline::track(const Frame& frame, Sighting& sighting, FusionFrameResult& result) {
   const Stopwatch watch;
+  // All is asked for before the host waits for it, once.
+  guess_.assign(context_, Span<const SE3>(&world_from_camera_, 1));
   icp_.set_frame(frame);
-  const TrackingResult tracked = icp_.track(rendering_, world_from_camera_);
+  icp_.align_all(rendering_, guess_);
+  check_.set_frame(frame);
+  check_.compare_all(rendering_, icp_.world_from_cameras());
+  HostReads reads;
+  icp_.queue_results(reads);
+  check_.queue_results(reads);
+  reads.wait(context_);
+  const TrackingResult tracked = icp_.results().front();
   const TrackingJudgement judgement = judge_tracking(tracked.measures);
   result.quality = judgement.quality;
   result.quality_score = judgement.score;
   result.confidence = judgement.probability;
   if (judgement.quality != TrackingQuality::kFailed) {
-    check_.set_frame(frame);
-    result.agreement = check_.compare(rendering_, tracked.world_from_camera);
+    result.agreement = check_.results().front();
     const RefinedPose view = refiner_.judge(tracked.measures, result.agreement);
     result.confidence = std::min(result.confidence, view.probability);
     if (!is_near(tracked.world_from_camera, world_from_camera_, settings_.max_motion_m, settings_.max_motion_deg) ||

@@ -3,6 +3,7 @@
 /// Alignment of a depth image with a rendered surface: sums over pixels, and the step that follows from them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "icp_ops.h"
@@ -39,7 +40,7 @@ struct HalveDepth {
 /// Everything that a step at one level needs.
 struct IcpStep {
   DepthLevel live;
-  const SurfacePixel* model;
+  const SurfacePixel* models;  ///< one rendering after another
   Intrinsics model_intrinsics;
   int model_width;
   int model_height;
@@ -52,26 +53,32 @@ struct IcpStep {
 
 struct IcpScratch {};
 
-/// Sums the normal equations over one chunk of pixels; kWidth pixels of a row side by side.
+/// Sums the normal equations of one alignment over one chunk of pixels; kWidth pixels of a row side by side.
 template <int kWidth>
 struct SumChunk {
   static constexpr int kGroupsPerChunk = 512 / kWidth;
 
   IcpStep step;
-  const IcpState* state;
+  int num_chunks;
+  const IcpState* states;
   float* chunk_sums;
 
   template <class Team>
-  FOOTHOLD_HD void operator()(const Team& team, IcpScratch&, std::size_t chunk) const {
-    if (state->converged != 0) return;
+  FOOTHOLD_HD void operator()(const Team& team, IcpScratch&, std::size_t item) const {
+    const int alignment = static_cast<int>(item) / num_chunks;
+    const int chunk = static_cast<int>(item) % num_chunks;
+    const IcpState& state = states[alignment];
+    if (state.converged != 0) return;
+    const SurfacePixel* const model = step.models + static_cast<std::size_t>(alignment) * static_cast<std::size_t>(step.model_width) *
+                                                        static_cast<std::size_t>(step.model_height);
     const int groups_per_row = (step.live.depth.width + kWidth - 1) / kWidth;
     const int num_groups = groups_per_row * step.live.depth.height;
-    const int first = static_cast<int>(chunk) * kGroupsPerChunk;
-    const SE3 pose = state->trial.unpack();
+    const int first = chunk * kGroupsPerChunk;
+    const SE3 pose = state.trial;
     float sums[kNumSums][kWidth] = {};
     for (int k = team.lane(); k < kGroupsPerChunk; k += team.size()) {
       const int group = first + k;
-      if (group < num_groups) add_group(group % groups_per_row * kWidth, group / groups_per_row, pose, sums);
+      if (group < num_groups) add_group(model, group % groups_per_row * kWidth, group / groups_per_row, pose, sums);
     }
     float totals[kNumSums];
     for (int j = 0; j < kNumSums; ++j) {
@@ -79,7 +86,7 @@ struct SumChunk {
       for (int i = 0; i < kWidth; ++i) totals[j] += sums[j][i];
     }
     team.sum_all(totals);
-    for (int j = team.lane(); j < kNumSums; j += team.size()) chunk_sums[chunk * kNumSums + static_cast<std::size_t>(j)] = totals[j];
+    for (int j = team.lane(); j < kNumSums; j += team.size()) chunk_sums[item * kNumSums + static_cast<std::size_t>(j)] = totals[j];
   }
 
  private:
@@ -96,7 +103,7 @@ struct SumChunk {
     int pixel[kWidth];  ///< -1 outside the rendering
   };
 
-  FOOTHOLD_HD void add_group(int u0, int v, const SE3& pose, float (&sums)[kNumSums][kWidth]) const {
+  FOOTHOLD_HD void add_group(const SurfacePixel* model, int u0, int v, const SE3& pose, float (&sums)[kNumSums][kWidth]) const {
     Points points;
     project(u0, v, pose, points);
     float nx[kWidth];
@@ -104,7 +111,7 @@ struct SumChunk {
     float nz[kWidth];
     float depth[kWidth];
     for (int i = 0; i < kWidth; ++i) {
-      const SurfacePixel surface = points.pixel[i] >= 0 ? step.model[points.pixel[i]] : SurfacePixel{};
+      const SurfacePixel surface = points.pixel[i] >= 0 ? model[points.pixel[i]] : SurfacePixel{};
       nx[i] = surface.normal_x;
       ny[i] = surface.normal_y;
       nz[i] = surface.normal_z;
@@ -204,9 +211,9 @@ struct SolveScratch {
   double sums[kNumSums];
 };
 
-/// Combines the chunks' sums, each by one lane and in order, accepts or rejects the trial pose, and proposes the next. One team.
+/// Combines the chunks' sums of one alignment, each by one lane and in order, accepts or rejects the trial pose, and proposes the next.
 struct SolveStep {
-  IcpState* state;
+  IcpState* states;
   const float* chunk_sums;
   int num_chunks;
   bool first_of_level;
@@ -214,12 +221,14 @@ struct SolveStep {
   float converged_step;
 
   template <class Team>
-  FOOTHOLD_HD void operator()(const Team& team, SolveScratch& scratch, std::size_t) const {
-    if (state->converged != 0) return;
+  FOOTHOLD_HD void operator()(const Team& team, SolveScratch& scratch, std::size_t alignment) const {
+    IcpState& state = states[alignment];
+    if (state.converged != 0) return;
     double(&sums)[kNumSums] = scratch.sums;
+    const float* const own_sums = chunk_sums + alignment * static_cast<std::size_t>(num_chunks * kNumSums);
     for (int j = team.lane(); j < kNumSums; j += team.size()) {
       double sum = 0.0;
-      for (int c = 0; c < num_chunks; ++c) sum += static_cast<double>(chunk_sums[c * kNumSums + j]);
+      for (int c = 0; c < num_chunks; ++c) sum += static_cast<double>(own_sums[c * kNumSums + j]);
       sums[j] = sum;
     }
     team.sync();
@@ -227,33 +236,33 @@ struct SolveStep {
     const double num_valid = sums[kNumHessian + 8];
     const double cost = num_valid > 0.0 ? sums[kNumHessian + 6] / num_valid : 1.0;
     constexpr float kFirstDamping = 1e-4F;
-    if (first_of_level || cost <= state->cost) {
-      state->damping = first_of_level ? kFirstDamping : 0.1F * state->damping;
-      state->cost = cost;
-      state->model_from_camera = state->trial;
-      for (int j = 0; j < kNumSums; ++j) state->sums[j] = sums[j];
+    if (first_of_level || cost <= state.cost) {
+      state.damping = first_of_level ? kFirstDamping : 0.1F * state.damping;
+      state.cost = cost;
+      state.model_from_camera = state.trial;
+      for (int j = 0; j < kNumSums; ++j) state.sums[j] = sums[j];
     } else {
-      state->damping *= 10.0F;
+      state.damping *= 10.0F;
     }
-    propose();
+    propose(state);
   }
 
  private:
-  FOOTHOLD_HD void propose() const {
+  FOOTHOLD_HD void propose(IcpState& state) const {
     const int size = rotation_only ? 3 : 6;
     double matrix[6][6];
     double step[6];
     int row = 0;
     for (int a = 0; a < 6; ++a) {
       for (int b = a; b < 6; ++b, ++row) {
-        matrix[b][a] = state->sums[row];
-        matrix[a][b] = state->sums[row];
+        matrix[b][a] = state.sums[row];
+        matrix[a][b] = state.sums[row];
       }
-      matrix[a][a] *= 1.0 + static_cast<double>(state->damping);
-      step[a] = -state->sums[kNumHessian + a];
+      matrix[a][a] *= 1.0 + static_cast<double>(state.damping);
+      step[a] = -state.sums[kNumHessian + a];
     }
     if (!cholesky_factor(matrix, size)) {
-      state->converged = 1;
+      state.converged = 1;
       return;
     }
     cholesky_solve(matrix, size, step);
@@ -263,29 +272,56 @@ struct SolveStep {
       tangent[a] = static_cast<float>(step[a]);
       length += step[a] * step[a];
     }
-    state->trial = PackedPose::pack(se3_exp(tangent) * state->model_from_camera.unpack());
-    if (!(length > static_cast<double>(converged_step) * static_cast<double>(converged_step))) state->converged = 1;
+    state.trial = se3_exp(tangent) * state.model_from_camera;
+    if (!(length > static_cast<double>(converged_step) * static_cast<double>(converged_step))) state.converged = 1;
   }
 };
 
-/// Starts an alignment.
+/// Starts each alignment.
 struct BeginIcp {
-  IcpState* state;
-  PackedPose model_from_camera;
+  const SE3* world_from_models;
+  const SE3* guesses;
+  IcpState* states;
 
-  FOOTHOLD_HD void operator()(std::size_t) const {
-    *state = {};
-    state->model_from_camera = model_from_camera;
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    states[i].world_from_model = world_from_models[i];
+    states[i].model_from_camera = world_from_models[i].inverse() * guesses[i];
   }
 };
 
-/// Starts a level from the best pose of the one before.
+/// Starts a level from the best poses of the one before.
 struct BeginLevel {
-  IcpState* state;
+  IcpState* states;
 
-  FOOTHOLD_HD void operator()(std::size_t) const {
-    state->trial = state->model_from_camera;
-    state->converged = 0;
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    states[i].trial = states[i].model_from_camera;
+    states[i].converged = 0;
+  }
+};
+
+/// The rotation nearest to a matrix that is one but for rounding, like nearest_rotation() but for kernels, too.
+///
+/// Newton's iteration X <- X (3 I - X^T X) / 2 squares an error of at most 1e-2 each time. Reference: [Higham1986].
+FOOTHOLD_HD inline Eigen::Matrix3f without_rounding_errors(const Eigen::Matrix3f& rotation) {
+  constexpr int kNumSteps = 3;
+  Eigen::Matrix3d x = rotation.cast<double>();
+  for (int i = 0; i < kNumSteps; ++i) {
+    const Eigen::Matrix3d square = x.transpose() * x;
+    const Eigen::Matrix3d next = 0.5 * (x * (3.0 * Eigen::Matrix3d::Identity() - square));
+    x = next;
+  }
+  return x.cast<float>();
+}
+
+/// Says where each alignment ended.
+struct EndIcp {
+  const IcpState* states;
+  SE3* world_from_cameras;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    SE3 pose = states[i].world_from_model * states[i].model_from_camera;
+    pose.rotation = without_rounding_errors(pose.rotation);
+    world_from_cameras[i] = pose;
   }
 };
 
@@ -301,13 +337,15 @@ void IcpOps<kDevice>::build_pyramid(const Context& context, const IcpSettings& s
 }
 
 template <Device kDevice>
-IcpState IcpOps<kDevice>::align(const Context& context, const IcpSettings& settings, const SurfaceMap& model, const SE3& model_from_camera,
-                                Scratch& scratch) {
+void IcpOps<kDevice>::align(const Context& context, const IcpSettings& settings, const SurfaceMap& models, const SE3* guesses,
+                            Scratch& scratch) {
   using Exec = typename ExecutorOf<kDevice>::Type;
   constexpr int kWidth = Exec::kVectorWidth;
   const Exec exec(context);
-  IcpState* const state = scratch.state.data();
-  exec.for_each(1, BeginIcp{state, PackedPose::pack(model_from_camera)});
+  const std::size_t num_alignments = models.num_renderings();
+  scratch.states.resize(num_alignments);
+  IcpState* const states = scratch.states.data();
+  exec.for_each(num_alignments, BeginIcp{models.world_from_cameras.data(), guesses, states});
   for (int l = settings.coarsest_level; l >= settings.finest_level; --l) {
     const DepthLevel& live = scratch.levels[l];
     const float t =
@@ -317,23 +355,26 @@ IcpState IcpOps<kDevice>::align(const Context& context, const IcpSettings& setti
     const float outlier_m = settings.finest_outlier_m * std::pow(settings.coarsest_outlier_m / settings.finest_outlier_m, t);
     const int num_steps =
         settings.finest_steps + static_cast<int>(std::lround(t * static_cast<float>(settings.coarsest_steps - settings.finest_steps)));
-    const IcpStep step{live,      model.pixels.data(),   model.camera.intrinsics, model.camera.width,   model.camera.height,
-                       outlier_m, settings.noise_growth, settings.outlier_growth, settings.min_depth_m, settings.max_depth_m};
+    const IcpStep step{live,      models.pixels.data(),  models.camera.intrinsics, models.camera.width,  models.camera.height,
+                       outlier_m, settings.noise_growth, settings.outlier_growth,  settings.min_depth_m, settings.max_depth_m};
     const int num_groups = (live.depth.width + kWidth - 1) / kWidth * live.depth.height;
     const int num_chunks = (num_groups + SumChunk<kWidth>::kGroupsPerChunk - 1) / SumChunk<kWidth>::kGroupsPerChunk;
-    scratch.chunk_sums.resize(static_cast<std::size_t>(num_chunks) * kNumSums);
+    const std::size_t num_teams = num_alignments * static_cast<std::size_t>(num_chunks);
+    scratch.chunk_sums.resize(num_teams * kNumSums);
     float* const sums = scratch.chunk_sums.data();
-    exec.for_each(1, BeginLevel{state});
+    exec.for_each(num_alignments, BeginLevel{states});
     for (int i = 0; i < num_steps; ++i) {
-      exec.template for_each_team<IcpScratch>(static_cast<std::size_t>(num_chunks), SumChunk<kWidth>{step, state, sums});
+      exec.template for_each_team<IcpScratch>(num_teams, SumChunk<kWidth>{step, num_chunks, states, sums});
       const bool rotation_only = settings.rotation_first && l == settings.coarsest_level;
-      exec.template for_each_team<SolveScratch>(1, SolveStep{state, sums, num_chunks, i == 0, rotation_only, settings.converged_step});
+      exec.template for_each_team<SolveScratch>(num_alignments,
+                                                SolveStep{states, sums, num_chunks, i == 0, rotation_only, settings.converged_step});
       if constexpr (kDevice == Device::kCpu) {
-        if (state->converged != 0) break;
+        if (std::all_of(states, states + num_alignments, [](const IcpState& state) { return state.converged != 0; })) break;
       }
     }
   }
-  return scratch.state.read(context, 0);
+  scratch.world_from_cameras.resize(num_alignments);
+  exec.for_each(num_alignments, EndIcp{states, scratch.world_from_cameras.data()});
 }
 
 }  // namespace foothold

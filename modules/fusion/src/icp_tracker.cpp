@@ -83,38 +83,62 @@ Eigen::Vector3f loosest_translation(const IcpState& state) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(complement);  // eigenvalues rise
   return solver.eigenvectors().col(0).cast<float>();
 }
-}  // namespace
 
-TrackingResult IcpTracker::track(const SurfaceMap& model, const SE3& guess_world_from_camera) {
-  FOOTHOLD_EXPECTS(!scratch_->levels[0].depth.empty() && !model.empty());
-  FOOTHOLD_EXPECTS(model.pixels.memory() == context_.memory());
-  const ScopedStage stage(context_, "fusion/track");
-  const SE3 model_from_camera = model.camera.world_from_camera.inverse() * guess_world_from_camera;
-  const IcpState state =
-      dispatch<IcpOps>(context_, [&](auto ops) { return ops.align(context_, settings_, model, model_from_camera, *scratch_); });
-
+/// @param num_total  Pixels at the finest level.
+TrackingResult summarise(const IcpState& state, const SE3& world_from_camera, double num_total, const IcpSettings& settings) {
   TrackingResult result;
-  result.world_from_camera = model.camera.world_from_camera * state.model_from_camera.unpack();
-  result.world_from_camera.rotation = nearest_rotation(result.world_from_camera.rotation);
+  result.world_from_camera = world_from_camera;
   result.num_inliers = static_cast<int>(state.sums[kNumHessian + 7]);
   result.num_valid = static_cast<int>(state.sums[kNumHessian + 8]);
   TrackingMeasures& measures = result.measures;
   const double num_valid = state.sums[kNumHessian + 8];
-  const auto num_total = static_cast<double>(scratch_->levels[settings_.finest_level].depth.size());
   measures.well_posed =
       log_determinant(state, num_total, measures.log_det_total) && log_determinant(state, num_valid, measures.log_det_valid);
-  if (measures.well_posed) result.loosest_world = model.camera.world_from_camera.rotation * loosest_translation(state);
+  if (measures.well_posed) result.loosest_world = state.world_from_model.rotation * loosest_translation(state);
   if (num_valid > 0.0) {
     measures.inlier_fraction = static_cast<float>(state.sums[kNumHessian + 7] / num_valid);
     const double missing = num_valid - state.sums[kNumHessian + 7];
     const double inliers_cost = state.sums[kNumHessian + 6] - missing;
     // Tukey's loss saturates at c^2 / 6 in units of a squared residual.
-    const double squared = (inliers_cost * settings_.finest_outlier_m * settings_.finest_outlier_m / 6.0 +
-                            missing * settings_.coarsest_outlier_m * settings_.coarsest_outlier_m) /
+    const double squared = (inliers_cost * settings.finest_outlier_m * settings.finest_outlier_m / 6.0 +
+                            missing * settings.coarsest_outlier_m * settings.coarsest_outlier_m) /
                            num_valid;
     measures.residual_m = static_cast<float>(std::sqrt(std::max(0.0, squared)));
   }
   return result;
+}
+}  // namespace
+
+TrackingResult IcpTracker::track(const SurfaceMap& model, const SE3& guess_world_from_camera) {
+  scratch_->guess.assign(context_, Span<const SE3>(&guess_world_from_camera, 1));
+  align_all(model, scratch_->guess);
+  HostReads reads;
+  queue_results(reads);
+  reads.wait(context_);
+  return results().front();
+}
+
+void IcpTracker::align_all(const SurfaceMap& models, const Array<SE3>& guesses_world_from_camera) {
+  FOOTHOLD_EXPECTS(!scratch_->levels[0].depth.empty() && !models.empty());
+  FOOTHOLD_EXPECTS(models.pixels.memory() == context_.memory() && guesses_world_from_camera.memory() == context_.memory());
+  FOOTHOLD_EXPECTS(guesses_world_from_camera.size() == models.num_renderings());
+  const ScopedStage stage(context_, "fusion/track");
+  dispatch<IcpOps>(context_, [&](auto ops) { ops.align(context_, settings_, models, guesses_world_from_camera.data(), *scratch_); });
+}
+
+const Array<SE3>& IcpTracker::world_from_cameras() const { return scratch_->world_from_cameras; }
+
+void IcpTracker::queue_results(HostReads& reads) {
+  reads.add(scratch_->states, scratch_->host_states);
+  reads.add(scratch_->world_from_cameras, scratch_->host_world_from_cameras);
+}
+
+std::vector<TrackingResult> IcpTracker::results() const {
+  const auto num_total = static_cast<double>(scratch_->levels[settings_.finest_level].depth.size());
+  std::vector<TrackingResult> results;
+  for (std::size_t i = 0; i < scratch_->host_states.size(); ++i)
+    results.push_back(summarise(scratch_->host_states[i], scratch_->host_world_from_cameras[i], num_total, settings_));
+  return results;
 }
 
 }  // namespace foothold

@@ -39,11 +39,11 @@ ClassifierModel with_lenient_poor_threshold(ClassifierModel model) {
 /// Whether colours were compared: not in the dark. Shapes alone do not tell places apart.
 bool has_colour(const ViewAgreement& agreement) { return agreement.colour_correlation != 0.0F; }
 
-bool scores_higher(const RefinedPose& a, const RefinedPose& b) { return a.score > b.score; }
-
-RenderCamera camera_at(const Frame& frame, const SE3& world_from_camera, int divisor) {
-  return RenderCamera{frame.calibration.depth, frame.depth.width, frame.depth.height, world_from_camera}.reduced(divisor);
+RenderCamera reduced_camera(const Frame& frame, int divisor) {
+  return RenderCamera{frame.calibration.depth, frame.depth.width, frame.depth.height, SE3{}}.reduced(divisor);
 }
+
+bool scores_higher(const RefinedPose& a, const RefinedPose& b) { return a.score > b.score; }
 }  // namespace
 
 void PoseRefinerSettings::validate() const {
@@ -74,13 +74,15 @@ std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names() {
 }
 
 PoseRefiner::PoseRefiner(const Context& context, const PoseRefinerSettings& settings, const ClassifierModel& classifier)
-    : settings_(settings),
+    : context_(context),
+      settings_(settings),
       classifier_(with_lenient_poor_threshold(classifier)),
       raycaster_(context),
       coarse_icp_(context, at_divisor(settings.icp, settings.coarse_divisor)),
       fine_icp_(context, at_divisor(settings.icp, settings.fine_divisor)),
       check_(context, settings.check),
-      map_(context.memory()) {
+      map_(context.memory()),
+      proposals_(context.memory()) {
   settings.validate();
   FOOTHOLD_EXPECTS(classifier.features.size() == acceptance_feature_names().size());
 }
@@ -108,33 +110,97 @@ RefinedPose PoseRefiner::judge(const TrackingMeasures& measures, const ViewAgree
   return result;
 }
 
-RefinedPose PoseRefiner::judge_rendered(const TrackingResult& tracked) {
-  RefinedPose result = judge(tracked.measures, check_.compare(map_, tracked.world_from_camera));
-  result.world_from_camera = tracked.world_from_camera;
-  result.loosest_world = tracked.loosest_world;
-  return result;
+std::vector<RefinedPose> PoseRefiner::judge_rendered(IcpTracker& aligned) {
+  check_.compare_all(map_, aligned.world_from_cameras());
+  HostReads reads;
+  aligned.queue_results(reads);
+  check_.queue_results(reads);
+  reads.wait(context_);
+  const std::vector<TrackingResult> tracked = aligned.results();
+  const std::vector<ViewAgreement> agreements = check_.results();
+  std::vector<RefinedPose> results;
+  for (std::size_t i = 0; i < tracked.size(); ++i) {
+    results.push_back(judge(tracked[i].measures, agreements[i]));
+    results.back().world_from_camera = tracked[i].world_from_camera;
+    results.back().loosest_world = tracked[i].loosest_world;
+  }
+  return results;
 }
 
-RefinedPose PoseRefiner::align_coarsely(const Frame& frame, const TsdfVolume& volume, const SE3& proposal) {
-  raycaster_.render(volume, camera_at(frame, proposal, settings_.coarse_divisor), map_, true);
-  return judge_rendered(coarse_icp_.track(map_, proposal));
+std::vector<RefinedPose> PoseRefiner::align_coarsely(const Frame& frame, const TsdfVolume& volume, Span<const SE3> proposals) {
+  proposals_.assign(context_, proposals);
+  raycaster_.render_all(volume, reduced_camera(frame, settings_.coarse_divisor), proposals_, map_, true);
+  coarse_icp_.align_all(map_, proposals_);
+  return judge_rendered(coarse_icp_);
 }
 
-RefinedPose PoseRefiner::align_finely(const Frame& frame, const TsdfVolume& volume, const SE3& proposal) {
-  // Twice: the second rendering is from the aligned pose, so that nothing is hidden by parallax.
-  raycaster_.render(volume, camera_at(frame, proposal, settings_.fine_divisor), map_);
-  const TrackingResult first = fine_icp_.track(map_, proposal);
-  if (!first.measures.well_posed) return judge_rendered(first);
-  raycaster_.render(volume, camera_at(frame, first.world_from_camera, settings_.fine_divisor), map_, true);
-  return judge_rendered(fine_icp_.track(map_, first.world_from_camera));
+std::vector<RefinedPose> PoseRefiner::align_finely(const Frame& frame, const TsdfVolume& volume, Span<const SE3> proposals) {
+  const RenderCamera camera = reduced_camera(frame, settings_.fine_divisor);
+  proposals_.assign(context_, proposals);
+  raycaster_.render_all(volume, camera, proposals_, map_);
+  fine_icp_.align_all(map_, proposals_);
+  // Again: the second rendering is from the aligned pose, so that nothing is hidden by parallax.
+  raycaster_.render_all(volume, camera, fine_icp_.world_from_cameras(), map_, true);
+  fine_icp_.align_all(map_, fine_icp_.world_from_cameras());
+  return judge_rendered(fine_icp_);
 }
 
 RefinedPose PoseRefiner::refine_one(const Frame& frame, const TsdfVolume& volume, const SE3& proposal) {
   fine_icp_.set_frame(frame);
   check_.set_frame(frame);
-  RefinedPose result = align_finely(frame, volume, proposal);
-  result.accepted = has_colour(result.agreement) && result.score > classifier_.good_threshold;
+  RefinedPose result = align_finely(frame, volume, Span<const SE3>(&proposal, 1)).front();
+  result.accepted = has_colour(result.agreement) && is_good(result);
   return result;
+}
+
+std::vector<RefinedPose> PoseRefiner::rank_coarsely(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals) {
+  std::vector<SE3> starts;
+  std::vector<int> indices;
+  for (std::size_t i = 0; i < proposals.size(); ++i) {
+    const SE3& proposal = proposals[i].world_from_camera;
+    if (std::any_of(starts.begin(), starts.end(), [&](const SE3& other) { return is_same(other, proposal); })) continue;
+    starts.push_back(proposal);
+    indices.push_back(static_cast<int>(i));
+  }
+  std::vector<RefinedPose> candidates = align_coarsely(frame, volume, starts);
+  for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].candidate = indices[i];
+  std::stable_sort(candidates.begin(), candidates.end(), scores_higher);
+
+  std::vector<RefinedPose> distinct;
+  for (const RefinedPose& candidate : candidates) {
+    if (distinct.size() == static_cast<std::size_t>(settings_.num_finalists)) break;
+    const bool is_new = std::none_of(distinct.begin(), distinct.end(), [&](const RefinedPose& other) {
+      return is_same(other.world_from_camera, candidate.world_from_camera);
+    });
+    if (is_new) distinct.push_back(candidate);
+  }
+  return distinct;
+}
+
+std::vector<RefinedPose> PoseRefiner::refine_finalists(const Frame& frame, const TsdfVolume& volume, Span<const RefinedPose> ranked) {
+  if (ranked.empty()) return {};
+  std::vector<SE3> starts;
+  for (const RefinedPose& candidate : ranked) starts.push_back(candidate.world_from_camera);
+  std::vector<RefinedPose> finalists = align_finely(frame, volume, starts);
+  for (std::size_t i = 0; i < finalists.size(); ++i) finalists[i].candidate = ranked[i].candidate;
+  return finalists;
+}
+
+std::vector<RefinedPose> PoseRefiner::refine_ranked(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals) {
+  if (proposals.empty()) return {};
+  const std::vector<RefinedPose> ranked = rank_coarsely(frame, volume, proposals);
+  const auto first_hopeless = std::find_if(ranked.begin(), ranked.end(), [&](const RefinedPose& pose) { return is_hopeless(pose); });
+  const auto num_hopeful = static_cast<std::size_t>(first_hopeless - ranked.begin());
+  const Span<const RefinedPose> all(ranked);
+  std::vector<RefinedPose> finalists = refine_finalists(frame, volume, all.subspan(0, num_hopeful));
+  if (std::none_of(finalists.begin(), finalists.end(), [&](const RefinedPose& pose) { return is_good(pose); })) {
+    for (const RefinedPose& pose : refine_finalists(frame, volume, all.subspan(num_hopeful, ranked.size() - num_hopeful))) {
+      finalists.push_back(pose);
+      if (is_good(pose)) break;  // hopeless ones behind it cannot rival what was found
+    }
+  }
+  std::stable_sort(finalists.begin(), finalists.end(), scores_higher);
+  return finalists;
 }
 
 std::vector<PoseEstimate> PoseRefiner::slide(const RefinedPose& pose) const {
@@ -151,40 +217,6 @@ std::vector<PoseEstimate> PoseRefiner::slide(const RefinedPose& pose) const {
   return starts;
 }
 
-std::vector<RefinedPose> PoseRefiner::refine_ranked(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals) {
-  const auto contains = [&](const std::vector<RefinedPose>& poses, const SE3& pose) {
-    return std::any_of(poses.begin(), poses.end(), [&](const RefinedPose& other) { return is_same(other.world_from_camera, pose); });
-  };
-  std::vector<RefinedPose> candidates;
-  std::vector<SE3> seen;
-  for (std::size_t i = 0; i < proposals.size(); ++i) {
-    const SE3& proposal = proposals[i].world_from_camera;
-    if (std::any_of(seen.begin(), seen.end(), [&](const SE3& other) { return is_same(other, proposal); })) continue;
-    seen.push_back(proposal);
-    RefinedPose aligned = align_coarsely(frame, volume, proposal);
-    aligned.candidate = static_cast<int>(i);
-    candidates.push_back(aligned);
-  }
-  std::stable_sort(candidates.begin(), candidates.end(), scores_higher);
-
-  std::vector<RefinedPose> distinct;
-  for (const RefinedPose& candidate : candidates) {
-    if (distinct.size() == static_cast<std::size_t>(settings_.num_finalists)) break;
-    if (!contains(distinct, candidate.world_from_camera)) distinct.push_back(candidate);
-  }
-  std::vector<RefinedPose> finalists;
-  bool is_found = false;
-  for (const RefinedPose& candidate : distinct) {
-    if (is_found && is_hopeless(candidate)) break;  // those that follow score no better, and cannot rival what was found
-    RefinedPose aligned = align_finely(frame, volume, candidate.world_from_camera);
-    aligned.candidate = candidate.candidate;
-    is_found = is_found || aligned.score > classifier_.good_threshold;
-    finalists.push_back(aligned);
-  }
-  std::stable_sort(finalists.begin(), finalists.end(), scores_higher);
-  return finalists;
-}
-
 std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals) {
   if (proposals.empty()) return {};
   coarse_icp_.set_frame(frame);
@@ -192,7 +224,6 @@ std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolum
   check_.set_frame(frame);
   const std::size_t num_proposals = std::min(proposals.size(), static_cast<std::size_t>(settings_.max_candidates));
   std::vector<RefinedPose> finalists = refine_ranked(frame, volume, Span<const PoseEstimate>(proposals.data(), num_proposals));
-  const auto is_good = [&](const RefinedPose& pose) { return pose.score > classifier_.good_threshold; };
   if (!is_good(finalists.front())) {
     const int candidate = finalists.front().candidate;
     for (RefinedPose& slid : refine_ranked(frame, volume, slide(finalists.front()))) {

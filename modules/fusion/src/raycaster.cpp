@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/fusion/raycaster.h"
 
+#include <algorithm>
+#include <climits>
+
 #include "raycaster_ops.h"
 
 namespace foothold {
@@ -15,14 +18,25 @@ Raycaster::Raycaster(Raycaster&&) noexcept = default;
 Raycaster& Raycaster::operator=(Raycaster&&) noexcept = default;
 
 void Raycaster::render(const TsdfVolume& volume, const RenderCamera& camera, SurfaceMap& map, bool with_colour) {
+  scratch_->pose.assign(context_, Span<const SE3>(&camera.world_from_camera, 1));
+  render_all(volume, camera, scratch_->pose, map, with_colour);
+}
+
+void Raycaster::render_all(const TsdfVolume& volume, const RenderCamera& camera, const Array<SE3>& world_from_cameras, SurfaceMap& map,
+                           bool with_colour) {
   FOOTHOLD_EXPECTS(camera.width > 0 && camera.height > 0 && is_valid(camera.intrinsics));
   FOOTHOLD_EXPECTS(volume.context().memory() == context_.memory() && map.pixels.memory() == context_.memory());
+  FOOTHOLD_EXPECTS(!world_from_cameras.empty() && world_from_cameras.memory() == context_.memory());
+  FOOTHOLD_EXPECTS(&world_from_cameras != &map.world_from_cameras);
+  FOOTHOLD_EXPECTS(world_from_cameras.size() * static_cast<std::size_t>(std::max(camera.width * camera.height, volume.num_blocks())) <=
+                   INT_MAX);
   const ScopedStage stage(context_, "fusion/raycast");
-  const auto num_pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height);
+  const auto num_pixels = static_cast<std::size_t>(camera.width) * static_cast<std::size_t>(camera.height) * world_from_cameras.size();
   map.camera = camera;
+  map.world_from_cameras.resize(world_from_cameras.size());
   map.pixels.resize(num_pixels);
   map.colours.resize(with_colour ? num_pixels : 0);
-  dispatch<RaycasterOps>(context_, [&](auto ops) { ops.render(context_, volume.view(), settings_, *scratch_, map); });
+  dispatch<RaycasterOps>(context_, [&](auto ops) { ops.render(context_, volume.view(), settings_, world_from_cameras, *scratch_, map); });
 }
 
 }  // namespace foothold

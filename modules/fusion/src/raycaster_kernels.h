@@ -30,14 +30,43 @@ FOOTHOLD_HD inline float float_of_bits(std::int32_t bits) {
   return value;
 }
 
-/// The camera by value for kernels, and its image's tiles.
+/// The camera by value for kernels, its poses, and the tiles of each of its images.
+///
+/// Items are numbered through all images: those of the first pose, then those of the second, and so on.
 struct RayCamera {
   Intrinsics intrinsics;
   int width;
   int height;
-  SE3 world_from_camera;
-  int num_tile_columns;   ///< of rendering
+  const SE3* world_from_cameras;
+  int num_tile_columns;  ///< of rendering
+  int num_tiles;
   int num_range_columns;  ///< of depth ranges
+  int num_ranges;
+
+  FOOTHOLD_HD int num_pixels() const { return width * height; }
+};
+
+/// An item's image, and its number in that.
+struct ImageItem {
+  int image;
+  int index;
+
+  FOOTHOLD_HD ImageItem(std::size_t item, int num_per_image)
+      : image(static_cast<int>(static_cast<std::uint32_t>(item) / static_cast<std::uint32_t>(num_per_image))),
+        index(static_cast<int>(item) - image * num_per_image) {}
+};
+
+/// Takes the poses over into the map, and inverts them.
+struct PlaceCamera {
+  const SE3* from;
+  SE3* world_from_cameras;
+  SE3* cameras_from_world;
+
+  FOOTHOLD_HD void operator()(std::size_t image) const {
+    const SE3 pose = from[image];
+    world_from_cameras[image] = pose;
+    cameras_from_world[image] = pose.inverse();
+  }
 };
 
 struct ResetRanges {
@@ -54,29 +83,32 @@ struct ResetRanges {
 struct ProjectBlockRange {
   TsdfView volume;
   RayCamera camera;
-  SE3 camera_from_world;
+  const SE3* cameras_from_world;
   std::int32_t* near;
   std::int32_t* far;
 
-  FOOTHOLD_HD void operator()(std::size_t index) const {
-    const unsigned octants = volume.surface_octants[index];
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    const ImageItem item(i, volume.num_blocks);
+    const unsigned octants = volume.surface_octants[item.index];
     if (octants == 0) return;
-    const BlockCoordinates block = unpack_key(volume.block_keys[index]);
+    const BlockCoordinates block = unpack_key(volume.block_keys[item.index]);
+    const SE3 camera_from_world = cameras_from_world[item.image];
     const float side_m = volume.voxel_size_m * static_cast<float>(kOctantSide);
     for (int octant = 0; octant < 8; ++octant) {
       if ((octants >> static_cast<unsigned>(octant) & 1U) == 0) continue;
       const Eigen::Vector3f centre_world((static_cast<float>(2 * block.x + (octant & 1)) + 0.5F) * side_m,
                                          (static_cast<float>(2 * block.y + (octant >> 1 & 1)) + 0.5F) * side_m,
                                          (static_cast<float>(2 * block.z + (octant >> 2)) + 0.5F) * side_m);
-      widen(bound_projection(camera_from_world * centre_world, kHalfDiagonal * side_m, camera.intrinsics, camera.width, camera.height));
+      widen(bound_projection(camera_from_world * centre_world, kHalfDiagonal * side_m, camera.intrinsics, camera.width, camera.height),
+            item.image * camera.num_ranges);
     }
   }
 
-  FOOTHOLD_HD void widen(const BlockExtent& extent) const {
+  FOOTHOLD_HD void widen(const BlockExtent& extent, int first_range) const {
     if (!extent.visible()) return;
     for (int v = extent.v_min / kRangeTilePx; v <= extent.v_max / kRangeTilePx; ++v) {
       for (int u = extent.u_min / kRangeTilePx; u <= extent.u_max / kRangeTilePx; ++u) {
-        const int tile = v * camera.num_range_columns + u;
+        const int tile = first_range + v * camera.num_range_columns + u;
         atomic_lower(near + tile, float_bits(extent.z_near));
         atomic_raise(far + tile, float_bits(extent.z_far));
       }
@@ -216,7 +248,7 @@ class RayMarcher {
   bool has_surface_ = false;
 };
 
-/// Renders one tile of the image.
+/// Renders one tile of an image.
 struct RenderTile {
   TsdfView volume;
   RayCamera camera;
@@ -228,30 +260,32 @@ struct RenderTile {
 
   template <class Team>
   FOOTHOLD_HD void operator()(const Team& team, NoScratch&, std::size_t tile) const {
-    const int u0 = static_cast<int>(tile) % camera.num_tile_columns * kRayTileWidth;
-    const int v0 = static_cast<int>(tile) / camera.num_tile_columns * kRayTileHeight;
+    const ImageItem item(tile, camera.num_tiles);
+    const SE3 world_from_camera = camera.world_from_cameras[item.image];
+    const int u0 = item.index % camera.num_tile_columns * kRayTileWidth;
+    const int v0 = item.index / camera.num_tile_columns * kRayTileHeight;
     RayMarcher marcher(volume, step_fraction);
     for (int i = team.lane(); i < kRayTileWidth * kRayTileHeight; i += team.size()) {
       const int u = u0 + i % kRayTileWidth;
       const int v = v0 + i / kRayTileWidth;
       if (u >= camera.width || v >= camera.height) continue;
-      const Ray ray = ray_of(u, v);
-      const std::size_t pixel = static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.width) + static_cast<std::size_t>(u);
-      const int range = v / kRangeTilePx * camera.num_range_columns + u / kRangeTilePx;
+      const Ray ray = ray_of(world_from_camera, u, v);
+      const int pixel = item.image * camera.num_pixels() + v * camera.width + u;
+      const int range = item.image * camera.num_ranges + v / kRangeTilePx * camera.num_range_columns + u / kRangeTilePx;
       const float depth_m = marcher.march(ray, float_of_bits(near[range]), float_of_bits(far[range]));
       depths_m[pixel] = depth_m;
       if (colours != nullptr) colours[pixel] = depth_m > 0.0F ? colour_at(marcher.reader(), ray, depth_m) : Rgb8{};
     }
   }
 
-  FOOTHOLD_HD Ray ray_of(int u, int v) const {
+  FOOTHOLD_HD Ray ray_of(const SE3& world_from_camera, int u, int v) const {
     const Eigen::Vector3f direction_camera = camera.intrinsics.back_project(static_cast<float>(u), static_cast<float>(v), 1.0F);
-    const Eigen::Vector3f direction_world = camera.world_from_camera.rotation * direction_camera;
+    const Eigen::Vector3f direction_world = world_from_camera.rotation * direction_camera;
     const float to_voxels = 1.0F / volume.voxel_size_m;
     Ray ray{};
     for (int axis = 0; axis < 3; ++axis) {
       const float d = direction_world[axis] * to_voxels;
-      ray.origin[axis] = camera.world_from_camera.translation[axis] * to_voxels;
+      ray.origin[axis] = world_from_camera.translation[axis] * to_voxels;
       ray.direction[axis] = d > -1e-6F && d < 1e-6F ? 1e-6F : d;
       ray.inverse[axis] = 1.0F / ray.direction[axis];
     }
@@ -298,14 +332,16 @@ struct EstimateNormal {
   SurfacePixel* pixels;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
-    const int u = static_cast<int>(i) % camera.width;
-    const int v = static_cast<int>(i) / camera.width;
+    const ImageItem item(i, camera.num_pixels());
+    const float* const image_m = depths_m + static_cast<std::size_t>(i) - static_cast<std::size_t>(item.index);
+    const int u = item.index % camera.width;
+    const int v = item.index / camera.width;
     SurfacePixel pixel;
     pixel.depth_m = depths_m[i];
     Eigen::Vector3f along_u;
     Eigen::Vector3f along_v;
     if (pixel.depth_m > 0.0F && u > 0 && v > 0 && u + 1 < camera.width && v + 1 < camera.height &&
-        difference(u, v, 1, 0, pixel.depth_m, along_u) && difference(u, v, 0, 1, pixel.depth_m, along_v)) {
+        difference(image_m, u, v, 1, 0, pixel.depth_m, along_u) && difference(image_m, u, v, 0, 1, pixel.depth_m, along_v)) {
       const Eigen::Vector3f normal = along_v.cross(along_u);  // u is right, v is down: towards the camera
       const float length = normal.norm();
       if (length > 0.0F) {
@@ -317,9 +353,9 @@ struct EstimateNormal {
     pixels[i] = pixel;
   }
 
-  FOOTHOLD_HD bool difference(int u, int v, int du, int dv, float centre_m, Eigen::Vector3f& along) const {
-    const float before_m = depths_m[(v - dv) * camera.width + u - du];
-    const float after_m = depths_m[(v + dv) * camera.width + u + du];
+  FOOTHOLD_HD bool difference(const float* image_m, int u, int v, int du, int dv, float centre_m, Eigen::Vector3f& along) const {
+    const float before_m = image_m[(v - dv) * camera.width + u - du];
+    const float after_m = image_m[(v + dv) * camera.width + u + du];
     const float limit = discontinuity * centre_m;
     if (!(std::abs(before_m - centre_m) < limit && std::abs(after_m - centre_m) < limit)) return false;
     along = camera.intrinsics.back_project(static_cast<float>(u + du), static_cast<float>(v + dv), after_m) -
@@ -329,27 +365,33 @@ struct EstimateNormal {
 };
 
 template <Device kDevice>
-void RaycasterOps<kDevice>::render(const Context& context, const TsdfView& volume, const RaycasterSettings& settings, Scratch& scratch,
-                                   SurfaceMap& map) {
+void RaycasterOps<kDevice>::render(const Context& context, const TsdfView& volume, const RaycasterSettings& settings,
+                                   const Array<SE3>& world_from_cameras, Scratch& scratch, SurfaceMap& map) {
   const typename ExecutorOf<kDevice>::Type exec(context);
   const RenderCamera& view = map.camera;
+  const std::size_t num_images = world_from_cameras.size();
   const int num_columns = (view.width + kRayTileWidth - 1) / kRayTileWidth;
   const int num_rows = (view.height + kRayTileHeight - 1) / kRayTileHeight;
   const int num_range_columns = (view.width + kRangeTilePx - 1) / kRangeTilePx;
   const int num_range_rows = (view.height + kRangeTilePx - 1) / kRangeTilePx;
-  const auto num_tiles = static_cast<std::size_t>(num_columns * num_rows);
-  const auto num_ranges = static_cast<std::size_t>(num_range_columns * num_range_rows);
-  const RayCamera camera{view.intrinsics, view.width, view.height, view.world_from_camera, num_columns, num_range_columns};
+  const RayCamera camera{view.intrinsics,   view.width,
+                         view.height,       map.world_from_cameras.data(),
+                         num_columns,       num_columns * num_rows,
+                         num_range_columns, num_range_columns * num_range_rows};
+  const std::size_t num_ranges = num_images * static_cast<std::size_t>(camera.num_ranges);
+  scratch.cameras_from_world.resize(num_images);
   scratch.range_near.resize(num_ranges);
   scratch.range_far.resize(num_ranges);
   scratch.depths_m.resize(map.pixels.size());
+  SE3* const cameras_from_world = scratch.cameras_from_world.data();
   std::int32_t* const near = scratch.range_near.data();
   std::int32_t* const far = scratch.range_far.data();
+  exec.for_each(num_images, PlaceCamera{world_from_cameras.data(), map.world_from_cameras.data(), cameras_from_world});
   exec.for_each(num_ranges, ResetRanges{near, far});
-  exec.for_each(static_cast<std::size_t>(volume.num_blocks),
-                ProjectBlockRange{volume, camera, view.world_from_camera.inverse(), near, far});
-  exec.template for_each_team<NoScratch>(num_tiles, RenderTile{volume, camera, settings.step_fraction, near, far, scratch.depths_m.data(),
-                                                               map.colours.empty() ? nullptr : map.colours.data()});
+  exec.for_each(num_images * static_cast<std::size_t>(volume.num_blocks), ProjectBlockRange{volume, camera, cameras_from_world, near, far});
+  exec.template for_each_team<NoScratch>(num_images * static_cast<std::size_t>(camera.num_tiles),
+                                         RenderTile{volume, camera, settings.step_fraction, near, far, scratch.depths_m.data(),
+                                                    map.colours.empty() ? nullptr : map.colours.data()});
   exec.for_each(map.pixels.size(), EstimateNormal{camera, settings.discontinuity, scratch.depths_m.data(), map.pixels.data()});
 }
 

@@ -10,8 +10,10 @@
 namespace foothold {
 
 struct Raycaster::Scratch {
-  explicit Scratch(MemoryKind memory) : range_near(memory), range_far(memory), depths_m(memory) {}
+  explicit Scratch(MemoryKind memory) : pose(memory), cameras_from_world(memory), range_near(memory), range_far(memory), depths_m(memory) {}
 
+  Array<SE3> pose;  ///< of a single rendering
+  Array<SE3> cameras_from_world;
   Array<std::int32_t> range_near;  ///< depth [m] as the bits of a positive float, whose order is that of integers
   Array<std::int32_t> range_far;
   Array<float> depths_m;
@@ -21,7 +23,9 @@ template <Device kDevice>
 struct RaycasterOps {
   using Scratch = Raycaster::Scratch;
 
-  static void render(const Context& context, const TsdfView& volume, const RaycasterSettings& settings, Scratch& scratch, SurfaceMap& map);
+  /// Renders from each pose into `map`, whose arrays have their sizes.
+  static void render(const Context& context, const TsdfView& volume, const RaycasterSettings& settings,
+                     const Array<SE3>& world_from_cameras, Scratch& scratch, SurfaceMap& map);
 };
 
 }  // namespace foothold

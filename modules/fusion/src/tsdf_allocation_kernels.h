@@ -21,15 +21,32 @@ struct PosedDepth {
   FOOTHOLD_HD bool usable(float depth_m) const { return depth_m >= min_depth_m && depth_m <= max_depth_m; }
 };
 
-/// Wants every missing block along the truncation band of one sampled pixel.
+/// A hash table of the keys that a frame wants, in which each is claimed by one of the samples that want it.
+struct ClaimTable {
+  std::uint64_t* slots;  ///< kNoKey where nothing is claimed
+  int log2_slots;
+
+  /// The slot of a key that nobody has claimed before, or -1. Which of several lanes gets it is unspecified.
+  FOOTHOLD_HD std::int32_t claim(std::uint64_t key) const {
+    const std::uint32_t mask = (std::uint32_t{1} << static_cast<unsigned>(log2_slots)) - 1;
+    for (std::uint32_t slot = first_slot(key, log2_slots);; slot = (slot + 1) & mask) {
+      const std::uint64_t found = atomic_compare_exchange(slots + slot, kNoKey, key);
+      if (found == kNoKey) return static_cast<std::int32_t>(slot);
+      if (found == key) return -1;
+    }
+  }
+};
+
+/// Claims every missing block along the truncation band of one sampled pixel.
 struct CollectWantedBlocks {
   TsdfView volume;
   PosedDepth camera;
   int stride_px;
   int num_columns;
   int num_steps;  ///< samples along the band, half a block apart or closer
-  std::uint64_t* keys;
-  std::uint32_t* wanted;
+  ClaimTable claims;
+  std::int32_t* claimed_slots;
+  std::uint32_t* claimed;  ///< 1 where the slot is
 
   FOOTHOLD_HD void operator()(std::size_t sample) const {
     const int u = static_cast<int>(sample) % num_columns * stride_px;
@@ -40,7 +57,7 @@ struct CollectWantedBlocks {
     std::uint64_t last = kNoKey;
     for (int k = 0; k < num_steps; ++k) {
       const std::size_t slot = sample * static_cast<std::size_t>(num_steps) + static_cast<std::size_t>(k);
-      wanted[slot] = 0;
+      claimed[slot] = 0;
       if (!usable) continue;
       const float z = depth_m - volume.truncation_m + static_cast<float>(k) * band_step_m;
       const Eigen::Vector3f point_world =
@@ -49,8 +66,8 @@ struct CollectWantedBlocks {
       if (key == last || key == kNoKey) continue;
       last = key;
       if (volume.find(key) >= 0) continue;
-      keys[slot] = key;
-      wanted[slot] = 1;
+      claimed_slots[slot] = claims.claim(key);
+      claimed[slot] = claimed_slots[slot] >= 0 ? 1 : 0;
     }
   }
 
@@ -63,15 +80,19 @@ struct CollectWantedBlocks {
   }
 };
 
-/// Keeps the flagged keys, in order.
-struct CompactKeys {
-  const std::uint64_t* keys;
-  const std::uint32_t* flags;
+/// Takes the claimed keys out of the table, which is empty again afterwards.
+struct TakeClaims {
+  ClaimTable claims;
+  const std::int32_t* claimed_slots;
+  const std::uint32_t* claimed;
   const std::uint32_t* offsets;
-  std::uint64_t* kept;
+  std::uint64_t* keys;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
-    if (flags[i] != 0) kept[offsets[i]] = keys[i];
+    if (claimed[i] == 0) return;
+    std::uint64_t& slot = claims.slots[claimed_slots[i]];
+    keys[offsets[i]] = slot;
+    slot = kNoKey;
   }
 };
 
@@ -80,14 +101,6 @@ struct CopyKeys {
   std::uint64_t* to;
 
   FOOTHOLD_HD void operator()(std::size_t i) const { to[i] = from[i]; }
-};
-
-/// Flags the first of equal neighbours in a sorted list.
-struct FlagFirstOfEqual {
-  const std::uint64_t* keys;
-  std::uint32_t* flags;
-
-  FOOTHOLD_HD void operator()(std::size_t i) const { flags[i] = i == 0 || keys[i] != keys[i - 1] ? 1U : 0U; }
 };
 
 /// Enters blocks first, first + 1, ... into the hash table.

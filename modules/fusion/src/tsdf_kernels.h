@@ -8,6 +8,17 @@
 
 namespace foothold {
 
+/// Gives the table of claims room for as many as there may be: at most half of the slots are taken, so that searches stay short.
+template <class Executor>
+void reserve_claims(const Executor& exec, std::size_t num_claims, TsdfVolume::Scratch& scratch) {
+  int log2_slots = 1;
+  while ((std::size_t{1} << static_cast<unsigned>(log2_slots)) < 2 * num_claims) ++log2_slots;
+  if (log2_slots <= scratch.log2_claims) return;
+  scratch.claims.resize(std::size_t{1} << static_cast<unsigned>(log2_slots));
+  scratch.log2_claims = log2_slots;
+  exec.for_each(scratch.claims.size(), ClearSlots{scratch.claims.data()});
+}
+
 template <Device kDevice>
 int TsdfOps<kDevice>::find_new_blocks(const Context& context, const TsdfView& volume, const PosedDepth& camera, int stride_px,
                                       Scratch& scratch) {
@@ -18,28 +29,22 @@ int TsdfOps<kDevice>::find_new_blocks(const Context& context, const TsdfView& vo
   const int num_steps = 1 + static_cast<int>(std::ceil(2.0F * volume.truncation_m / half_block_m - 1e-3F));
   const std::size_t num_samples = static_cast<std::size_t>(num_columns) * static_cast<std::size_t>(num_rows);
   const std::size_t num_candidates = num_samples * static_cast<std::size_t>(num_steps);
-  scratch.candidates.resize(num_candidates);
-  scratch.wanted.resize(num_candidates);
+  scratch.claimed_slots.resize(num_candidates);
+  scratch.claimed.resize(num_candidates);
   scratch.offsets.resize(num_candidates + 1);
-  exec.for_each(num_samples,
-                CollectWantedBlocks{volume, camera, stride_px, num_columns, num_steps, scratch.candidates.data(), scratch.wanted.data()});
-  exec.exclusive_scan(Span<const std::uint32_t>(scratch.wanted.data(), num_candidates),
+  scratch.new_keys.resize(num_candidates);
+  reserve_claims(exec, num_candidates, scratch);
+  const ClaimTable claims{scratch.claims.data(), scratch.log2_claims};
+  exec.for_each(num_samples, CollectWantedBlocks{volume, camera, stride_px, num_columns, num_steps, claims, scratch.claimed_slots.data(),
+                                                 scratch.claimed.data()});
+  exec.exclusive_scan(Span<const std::uint32_t>(scratch.claimed.data(), num_candidates),
                       Span<std::uint32_t>(scratch.offsets.data(), num_candidates + 1));
   const std::size_t num_wanted = scratch.offsets.read(context, num_candidates);
   if (num_wanted == 0) return 0;
-
-  scratch.keys.resize(num_wanted);
-  exec.for_each(num_candidates, CompactKeys{scratch.candidates.data(), scratch.wanted.data(), scratch.offsets.data(), scratch.keys.data()});
-  exec.sort(Span<std::uint64_t>(scratch.keys.data(), num_wanted), scratch.sort_buffer, 0, 3 * kKeyBits);
-  scratch.flags.resize(num_wanted);
-  scratch.unique_offsets.resize(num_wanted + 1);
-  exec.for_each(num_wanted, FlagFirstOfEqual{scratch.keys.data(), scratch.flags.data()});
-  exec.exclusive_scan(Span<const std::uint32_t>(scratch.flags.data(), num_wanted),
-                      Span<std::uint32_t>(scratch.unique_offsets.data(), num_wanted + 1));
-  const std::size_t num_unique = scratch.unique_offsets.read(context, num_wanted);
-  scratch.new_keys.resize(num_unique);
-  exec.for_each(num_wanted, CompactKeys{scratch.keys.data(), scratch.flags.data(), scratch.unique_offsets.data(), scratch.new_keys.data()});
-  return static_cast<int>(num_unique);
+  exec.for_each(num_candidates,
+                TakeClaims{claims, scratch.claimed_slots.data(), scratch.claimed.data(), scratch.offsets.data(), scratch.new_keys.data()});
+  exec.sort(Span<std::uint64_t>(scratch.new_keys.data(), num_wanted), scratch.sort_buffer, 0, 3 * kKeyBits);
+  return static_cast<int>(num_wanted);
 }
 
 template <Device kDevice>

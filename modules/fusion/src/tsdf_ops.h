@@ -13,22 +13,19 @@ namespace foothold {
 /// Buffers of one frame's integration, kept so that no frame allocates after warm-up.
 struct TsdfVolume::Scratch {
   explicit Scratch(MemoryKind memory)
-      : candidates(memory),
-        wanted(memory),
+      : claims(memory),
+        claimed_slots(memory),
+        claimed(memory),
         offsets(memory),
-        flags(memory),
-        unique_offsets(memory),
-        keys(memory),
         new_keys(memory),
         sort_buffer(memory),
         tile_depths_m(memory) {}
 
-  Array<std::uint64_t> candidates;
-  Array<std::uint32_t> wanted;
+  Array<std::uint64_t> claims;  ///< a hash table, empty between frames
+  int log2_claims = 0;
+  Array<std::int32_t> claimed_slots;
+  Array<std::uint32_t> claimed;
   Array<std::uint32_t> offsets;
-  Array<std::uint32_t> flags;
-  Array<std::uint32_t> unique_offsets;
-  Array<std::uint64_t> keys;
   Array<std::uint64_t> new_keys;  ///< what the frame wants, sorted, each once
   Array<std::uint64_t> sort_buffer;
   Array<float> tile_depths_m;

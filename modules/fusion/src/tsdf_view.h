@@ -66,6 +66,11 @@ FOOTHOLD_HD inline int floor_to_int(float x) {
   return truncated - static_cast<int>(static_cast<float>(truncated) > x);
 }
 
+/// The slot of a hash table at which the search for a key begins: Fibonacci hashing. Reference: [Knuth1998] Sec. 6.4.
+FOOTHOLD_HD inline std::uint32_t first_slot(std::uint64_t key, int log2_slots) {
+  return static_cast<std::uint32_t>((key * 0x9e3779b97f4a7c15ULL) >> static_cast<unsigned>(64 - log2_slots));
+}
+
 struct TsdfView {
   VoxelBlock* const* pages = nullptr;
   const std::uint64_t* block_keys = nullptr;
@@ -78,10 +83,7 @@ struct TsdfView {
   float truncation_m = 0.0F;
 
   FOOTHOLD_HD VoxelBlock& block(int index) const { return pages[index >> kPageBits][index & (kPageBlocks - 1)]; }
-  /// The slot at which the search for a key begins: Fibonacci hashing. Reference: [Knuth1998] Sec. 6.4.
-  FOOTHOLD_HD std::uint32_t first_slot(std::uint64_t key) const {
-    return static_cast<std::uint32_t>((key * 0x9e3779b97f4a7c15ULL) >> static_cast<unsigned>(64 - log2_slots));
-  }
+  FOOTHOLD_HD std::uint32_t first_slot(std::uint64_t key) const { return foothold::first_slot(key, log2_slots); }
   /// The index of a block, or -1.
   FOOTHOLD_HD int find(std::uint64_t key) const {
     const std::uint32_t mask = (std::uint32_t{1} << static_cast<unsigned>(log2_slots)) - 1;

@@ -116,18 +116,24 @@ void TsdfVolume::fill_page_table() {
 
 void TsdfVolume::reserve_blocks(int num_blocks) {
   const auto count = static_cast<std::size_t>(num_blocks);
+  const bool on_device = context_.memory() == MemoryKind::kCuda;
   std::size_t num_pages = (count + kPageBlocks - 1) / kPageBlocks;
   if (num_pages > pages_.size()) {
-    // Allocating on a device stops it: a few frames bear that, not many. The host's pages are cheap.
-    if (context_.memory() == MemoryKind::kCuda) num_pages = std::max(num_pages, pages_.size() + pages_.size() / 2 + kFirstCudaPages);
+    // Allocating on a device stops it: a few frames bear that, not many. All grows at once there. The host's pages are cheap.
+    if (on_device) num_pages = std::max(num_pages, pages_.size() + pages_.size() / 2 + kFirstCudaPages);
     while (pages_.size() < num_pages) pages_.emplace_back(context_.memory(), kPageBlocks * sizeof(VoxelBlock));
     fill_page_table();
+  }
+  const std::size_t capacity = on_device ? pages_.size() * kPageBlocks : count;
+  if (on_device) {
+    block_keys_.reserve(capacity);
+    surface_octants_.reserve(capacity);
   }
   block_keys_.resize(count);
   surface_octants_.resize(count);
   // Linear probing stays short while at most half of the slots are taken.
   int log2_slots = std::max(log2_slots_, kMinLog2Slots);
-  while ((std::size_t{1} << static_cast<unsigned>(log2_slots)) < 2 * count) ++log2_slots;
+  while ((std::size_t{1} << static_cast<unsigned>(log2_slots)) < 2 * capacity) ++log2_slots;
   if (log2_slots == log2_slots_) return;
   log2_slots_ = log2_slots;
   const std::size_t num_slots = std::size_t{1} << static_cast<unsigned>(log2_slots);

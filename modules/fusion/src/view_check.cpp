@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/fusion/view_check.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "view_check_ops.h"
@@ -32,54 +31,18 @@ void ViewCheck::set_frame(const Frame& frame) {
 }
 
 namespace {
-/// The moments of two variables over pixels.
-struct Moments {
-  double count = 0.0;
-  double variance[2] = {};  ///< times count
-  double covariance = 0.0;
+/// The correlation; 0 if either variable hardly varies, since there is noise then rather than a pattern.
+float correlation(const CheckMoments& moments, double min_deviation) {
+  const double floor = min_deviation * min_deviation * moments.count;
+  if (!(moments.live_variance > floor && moments.model_variance > floor)) return 0.0F;
+  return static_cast<float>(moments.covariance / std::sqrt(moments.live_variance * moments.model_variance));
+}
 
-  /// Adds the moments of some sums about their own means.
-  template <class Sums>
-  void add(const Sums& sums) {
-    const double n = static_cast<double>(sums[kColours]);
-    if (n < 1.0) return;
-    const auto centred = [&](CheckSum product, CheckSum a, CheckSum b) {
-      return static_cast<double>(sums[product]) - static_cast<double>(sums[a]) * static_cast<double>(sums[b]) / n;
-    };
-    count += n;
-    variance[0] += centred(kLive2, kLive, kLive);
-    variance[1] += centred(kModel2, kModel, kModel);
-    covariance += centred(kLiveModel, kLive, kModel);
-  }
-
-  /// The correlation; 0 if either variable hardly varies, since there is noise then rather than a pattern.
-  float correlation(double min_deviation) const {
-    const double floor = min_deviation * min_deviation * count;
-    if (!(variance[0] > floor && variance[1] > floor)) return 0.0F;
-    return static_cast<float>(covariance / std::sqrt(variance[0] * variance[1]));
-  }
-};
-
-/// Standard deviation of grey in [0, 1] below which a view counts as without shades, or without texture.
-constexpr double kMinShade = 0.01;
-constexpr double kMinTexture = 0.004;
-}  // namespace
-
-ViewAgreement ViewCheck::compare(const SurfaceMap& model, const SE3& world_from_camera) {
-  FOOTHOLD_EXPECTS(!model.empty() && model.pixels.memory() == context_.memory());
-  const SE3 model_from_camera = model.camera.world_from_camera.inverse() * world_from_camera;
-  const std::vector<float> tile_sums =
-      dispatch<ViewCheckOps>(context_, [&](auto ops) { return ops.compare(context_, model, model_from_camera, settings_, *scratch_); });
-
-  double sums[kNumCheckSums] = {};
-  Moments texture;
-  for (std::size_t first = 0; first < tile_sums.size(); first += kNumCheckSums) {
-    for (std::size_t j = 0; j < kNumCheckSums; ++j) sums[j] += static_cast<double>(tile_sums[first + j]);
-    texture.add(tile_sums.data() + first);
-  }
-  Moments shades;
-  shades.add(sums);
-
+ViewAgreement summarise(const CheckTotals& totals) {
+  // Standard deviation of grey in [0, 1] below which a view counts as without shades, or without texture.
+  constexpr double kMinShade = 0.01;
+  constexpr double kMinTexture = 0.004;
+  const double(&sums)[kNumCheckSums] = totals.sums;
   const auto part = [](double count, double of) { return of > 0.0 ? static_cast<float>(count / of) : 0.0F; };
   ViewAgreement result;
   result.num_valid = static_cast<int>(sums[kValid]);
@@ -88,9 +51,33 @@ ViewAgreement ViewCheck::compare(const SurfaceMap& model, const SE3& world_from_
   result.in_front = part(sums[kFront], sums[kOverlap]);
   result.behind = part(sums[kBehind], sums[kOverlap]);
   result.difference = part(sums[kDifference], sums[kOverlap]);
-  result.colour_correlation = shades.correlation(kMinShade);
-  result.texture_correlation = texture.correlation(kMinTexture);
+  result.colour_correlation = correlation(moments_of(sums), kMinShade);
+  result.texture_correlation = correlation(totals.texture, kMinTexture);
   return result;
+}
+}  // namespace
+
+ViewAgreement ViewCheck::compare(const SurfaceMap& model, const SE3& world_from_camera) {
+  scratch_->pose.assign(context_, Span<const SE3>(&world_from_camera, 1));
+  compare_all(model, scratch_->pose);
+  HostReads reads;
+  queue_results(reads);
+  reads.wait(context_);
+  return results().front();
+}
+
+void ViewCheck::compare_all(const SurfaceMap& models, const Array<SE3>& world_from_cameras) {
+  FOOTHOLD_EXPECTS(!models.empty() && models.pixels.memory() == context_.memory());
+  FOOTHOLD_EXPECTS(world_from_cameras.size() == models.num_renderings() && world_from_cameras.memory() == context_.memory());
+  dispatch<ViewCheckOps>(context_, [&](auto ops) { ops.compare(context_, models, world_from_cameras.data(), settings_, *scratch_); });
+}
+
+void ViewCheck::queue_results(HostReads& reads) { reads.add(scratch_->totals, scratch_->host_totals); }
+
+std::vector<ViewAgreement> ViewCheck::results() const {
+  std::vector<ViewAgreement> results;
+  for (const CheckTotals& totals : scratch_->host_totals) results.push_back(summarise(totals));
+  return results;
 }
 
 }  // namespace foothold

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cmath>
-#include <vector>
 
 #include "tsdf_view.h"
 #include "view_check_ops.h"
@@ -58,7 +57,7 @@ struct SampleFrame {
   }
 };
 
-/// Compares one tile of the frame; its sums stay apart, so that texture can be told from shade.
+/// Compares one tile of the frame with one rendering; its sums stay apart, so that texture can be told from shade.
 struct CompareTile {
   static constexpr int kSide = 8;
 
@@ -66,13 +65,15 @@ struct CompareTile {
   int width;
   int height;
   int num_columns;  ///< of tiles
+  int num_tiles;
   Intrinsics intrinsics;
-  const SurfacePixel* model;
-  const Rgb8* colours;  ///< nullptr without colour
+  const SurfacePixel* models;  ///< one rendering after another
+  const Rgb8* colours;         ///< likewise; nullptr without colour
   Intrinsics model_intrinsics;
   int model_width;
   int model_height;
-  SE3 model_from_camera;
+  const SE3* world_from_models;
+  const SE3* world_from_cameras;
   float tolerance_m;
   float tolerance_growth;
   float* tile_sums;
@@ -80,20 +81,24 @@ struct CompareTile {
   struct Scratch {};
 
   template <class Team>
-  FOOTHOLD_HD void operator()(const Team& team, Scratch&, std::size_t tile) const {
+  FOOTHOLD_HD void operator()(const Team& team, Scratch&, std::size_t item) const {
+    const int comparison = static_cast<int>(item) / num_tiles;
+    const int tile = static_cast<int>(item) % num_tiles;
+    const SE3 model_from_camera = world_from_models[comparison].inverse() * world_from_cameras[comparison];
+    const int first_pixel = comparison * model_width * model_height;
     float sums[kNumCheckSums] = {};
-    const int u0 = static_cast<int>(tile) % num_columns * kSide;
-    const int v0 = static_cast<int>(tile) / num_columns * kSide;
+    const int u0 = tile % num_columns * kSide;
+    const int v0 = tile / num_columns * kSide;
     for (int i = team.lane(); i < kSide * kSide; i += team.size()) {
       const int u = u0 + i % kSide;
       const int v = v0 + i / kSide;
-      if (u < width && v < height) add(u, v, sums);
+      if (u < width && v < height) add(model_from_camera, first_pixel, u, v, sums);
     }
     team.sum_all(sums);
-    for (int j = team.lane(); j < kNumCheckSums; j += team.size()) tile_sums[tile * kNumCheckSums + static_cast<std::size_t>(j)] = sums[j];
+    for (int j = team.lane(); j < kNumCheckSums; j += team.size()) tile_sums[item * kNumCheckSums + static_cast<std::size_t>(j)] = sums[j];
   }
 
-  FOOTHOLD_HD void add(int live_u, int live_v, float (&sums)[kNumCheckSums]) const {
+  FOOTHOLD_HD void add(const SE3& model_from_camera, int first_pixel, int live_u, int live_v, float (&sums)[kNumCheckSums]) const {
     const CheckPixel live = pixels[live_v * width + live_u];
     if (live.depth_m <= 0.0F) return;
     sums[kValid] += 1.0F;
@@ -104,7 +109,8 @@ struct CompareTile {
     const int u = floor_to_int(pixel.x() + 0.5F);
     const int v = floor_to_int(pixel.y() + 0.5F);
     if (u < 0 || v < 0 || u >= model_width || v >= model_height) return;
-    const float depth_m = model[v * model_width + u].depth_m;
+    const int model_pixel = first_pixel + v * model_width + u;
+    const float depth_m = models[model_pixel].depth_m;
     if (depth_m <= 0.0F) return;
     sums[kOverlap] += 1.0F;
     const float tolerance = tolerance_m + tolerance_growth * depth_m * depth_m;
@@ -117,7 +123,7 @@ struct CompareTile {
     }
     sums[kAgree] += 1.0F;
     if (colours == nullptr || live.grey < 0.0F) return;
-    const Rgb8 colour = colours[v * model_width + u];
+    const Rgb8 colour = colours[model_pixel];
     if ((colour.r | colour.g | colour.b) == 0) return;
     const float grey = grey_of(colour);
     sums[kColours] += 1.0F;
@@ -126,6 +132,40 @@ struct CompareTile {
     sums[kLive2] += live.grey * live.grey;
     sums[kModel2] += grey * grey;
     sums[kLiveModel] += live.grey * grey;
+  }
+};
+
+/// Adds up the tiles of one comparison. A lane takes every so many of them, in order.
+struct TotalTiles {
+  const float* tile_sums;
+  int num_tiles;
+  CheckTotals* totals;
+
+  struct Scratch {};
+
+  template <class Team>
+  FOOTHOLD_HD void operator()(const Team& team, Scratch&, std::size_t comparison) const {
+    constexpr int kNumMoments = 4;
+    double sums[kNumCheckSums + kNumMoments] = {};
+    const float* const first = tile_sums + comparison * static_cast<std::size_t>(num_tiles) * kNumCheckSums;
+    for (int tile = team.lane(); tile < num_tiles; tile += team.size()) {
+      const float* const of_tile = first + tile * kNumCheckSums;
+      for (int j = 0; j < kNumCheckSums; ++j) sums[j] += static_cast<double>(of_tile[j]);
+      add_moments(of_tile, sums + kNumCheckSums);
+    }
+    team.sum_all(sums);
+    if (team.lane() != 0) return;
+    CheckTotals& result = totals[comparison];
+    for (int j = 0; j < kNumCheckSums; ++j) result.sums[j] = sums[j];
+    result.texture = {sums[kNumCheckSums], sums[kNumCheckSums + 1], sums[kNumCheckSums + 2], sums[kNumCheckSums + 3]};
+  }
+
+  FOOTHOLD_HD static void add_moments(const float* of_tile, double* moments) {
+    const CheckMoments own = moments_of(of_tile);
+    moments[0] += own.count;
+    moments[1] += own.live_variance;
+    moments[2] += own.model_variance;
+    moments[3] += own.covariance;
   }
 };
 
@@ -138,19 +178,23 @@ void ViewCheckOps<kDevice>::sample_frame(const Context& context, const Frame& fr
 }
 
 template <Device kDevice>
-std::vector<float> ViewCheckOps<kDevice>::compare(const Context& context, const SurfaceMap& model, const SE3& model_from_camera,
-                                                  const ViewCheckSettings& settings, Scratch& scratch) {
+void ViewCheckOps<kDevice>::compare(const Context& context, const SurfaceMap& models, const SE3* world_from_cameras,
+                                    const ViewCheckSettings& settings, Scratch& scratch) {
   const typename ExecutorOf<kDevice>::Type exec(context);
   const int num_columns = (scratch.width + CompareTile::kSide - 1) / CompareTile::kSide;
   const int num_rows = (scratch.height + CompareTile::kSide - 1) / CompareTile::kSide;
-  const auto num_tiles = static_cast<std::size_t>(num_columns * num_rows);
-  scratch.tile_sums.resize(num_tiles * kNumCheckSums);
+  const int num_tiles = num_columns * num_rows;
+  const std::size_t num_comparisons = models.num_renderings();
+  const std::size_t num_teams = num_comparisons * static_cast<std::size_t>(num_tiles);
+  scratch.tile_sums.resize(num_teams * kNumCheckSums);
+  scratch.totals.resize(num_comparisons);
+  float* const tile_sums = scratch.tile_sums.data();
   exec.template for_each_team<CompareTile::Scratch>(
-      num_tiles,
-      CompareTile{scratch.pixels.data(), scratch.width, scratch.height, num_columns, scratch.intrinsics, model.pixels.data(),
-                  model.colours.empty() ? nullptr : model.colours.data(), model.camera.intrinsics, model.camera.width, model.camera.height,
-                  model_from_camera, settings.tolerance_m, settings.tolerance_growth, scratch.tile_sums.data()});
-  return scratch.tile_sums.to_host(context);
+      num_teams, CompareTile{scratch.pixels.data(), scratch.width, scratch.height, num_columns, num_tiles, scratch.intrinsics,
+                             models.pixels.data(), models.colours.empty() ? nullptr : models.colours.data(), models.camera.intrinsics,
+                             models.camera.width, models.camera.height, models.world_from_cameras.data(), world_from_cameras,
+                             settings.tolerance_m, settings.tolerance_growth, tile_sums});
+  exec.template for_each_team<TotalTiles::Scratch>(num_comparisons, TotalTiles{tile_sums, num_tiles, scratch.totals.data()});
 }
 
 }  // namespace foothold

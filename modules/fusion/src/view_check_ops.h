@@ -33,14 +33,43 @@ enum CheckSum {
   kNumCheckSums
 };
 
+/// The moments of two variables over pixels, each about the mean of its part of them.
+struct CheckMoments {
+  double count;
+  double live_variance;  ///< times count, as the other two
+  double model_variance;
+  double covariance;
+};
+
+/// What a comparison sums over a frame.
+struct CheckTotals {
+  double sums[kNumCheckSums];
+  CheckMoments texture;  ///< about the means of tiles
+};
+static_assert(sizeof(CheckTotals) == 8 * (kNumCheckSums + 4), "copied from the device");
+
+/// The moments of some sums about their own means; nothing without pixels.
+template <class T>
+FOOTHOLD_HD CheckMoments moments_of(const T* sums) {
+  const double n = static_cast<double>(sums[kColours]);
+  if (n < 1.0) return {};
+  const double live = static_cast<double>(sums[kLive]);
+  const double model = static_cast<double>(sums[kModel]);
+  return {n, static_cast<double>(sums[kLive2]) - live * live / n, static_cast<double>(sums[kModel2]) - model * model / n,
+          static_cast<double>(sums[kLiveModel]) - live * model / n};
+}
+
 struct ViewCheck::Scratch {
-  explicit Scratch(MemoryKind memory) : pixels(memory), tile_sums(memory) {}
+  explicit Scratch(MemoryKind memory) : pixels(memory), pose(memory), tile_sums(memory), totals(memory) {}
 
   Intrinsics intrinsics;  ///< of the reduced image
   int width = 0;
   int height = 0;
   Array<CheckPixel> pixels;
-  Array<float> tile_sums;
+  Array<SE3> pose;         ///< of a single comparison
+  Array<float> tile_sums;  ///< by comparison, then by tile
+  Array<CheckTotals> totals;
+  std::vector<CheckTotals> host_totals;  ///< what queue_results() asked for
 };
 
 template <Device kDevice>
@@ -48,9 +77,9 @@ struct ViewCheckOps {
   using Scratch = ViewCheck::Scratch;
 
   static void sample_frame(const Context& context, const Frame& frame, const ViewCheckSettings& settings, Scratch& scratch);
-  /// The sums of each tile of 8 x 8 compared pixels, kNumCheckSums of them.
-  static std::vector<float> compare(const Context& context, const SurfaceMap& model, const SE3& model_from_camera,
-                                    const ViewCheckSettings& settings, Scratch& scratch);
+  /// Leaves the totals of the frame's comparison with each rendering, each from a pose of its own, in `scratch`.
+  static void compare(const Context& context, const SurfaceMap& models, const SE3* world_from_cameras, const ViewCheckSettings& settings,
+                      Scratch& scratch);
 };
 
 }  // namespace foothold

@@ -34,10 +34,12 @@ class EmulatedStream final : public CudaStream {
     ++device_.counts().num_waits;
     device_.wait();
   }
-  void read(void* host, const void* device, std::size_t num_bytes) override {
-    ++device_.counts().num_reads;
+  void read(Span<const MemoryRead> reads) override {
+    device_.counts().num_reads += static_cast<int>(reads.size());
     ++device_.counts().num_waits;
-    device_.run_now([=] { std::memcpy(host, device, num_bytes); });
+    device_.run_now([&] {
+      for (const MemoryRead& read : reads) std::memcpy(read.host, read.device, read.num_bytes);
+    });
   }
   void write(void* device, const void* host, std::size_t num_bytes) override {
     ++device_.counts().num_writes;

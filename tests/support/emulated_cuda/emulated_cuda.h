@@ -25,7 +25,7 @@ struct EmulatedCudaCounts {
   int num_frees = 0;
   int num_waits = 0;         ///< the host waited for its stream
   int num_device_waits = 0;  ///< the host waited for the whole device, as allocations' contents and copies outside of streams do
-  int num_reads = 0;         ///< copies to the host in stream order; each is one of num_waits
+  int num_reads = 0;         ///< copies to the host in stream order; those of one call share one of num_waits
   int num_writes = 0;        ///< copies to the device in stream order
 };
 

@@ -19,6 +19,8 @@ class Context;
 
 namespace detail {
 void read_memory(const Context& context, void* host, const void* device, std::size_t num_bytes);
+struct MemoryRead;
+void read_memory(const Context& context, Span<const MemoryRead> reads);
 void write_memory(const Context& context, void* device, const void* host, std::size_t num_bytes);
 /// Returns 64-byte aligned memory. @throws CudaError, std::bad_alloc, or DeviceError in a build without CUDA.
 void* allocate_memory(MemoryKind memory, std::size_t num_bytes);
@@ -28,6 +30,13 @@ void free_memory(MemoryKind memory, void* pointer) noexcept;
 void copy_memory(MemoryKind to_memory, void* to, MemoryKind from_memory, const void* from, std::size_t num_bytes);
 /// Sets every byte to zero.
 void clear_memory(MemoryKind memory, void* pointer, std::size_t num_bytes);
+
+/// A copy from the memory of a context's device to the host.
+struct MemoryRead {
+  void* host;
+  const void* device;
+  std::size_t num_bytes;
+};
 }  // namespace detail
 
 /// A growing buffer of elements that may be copied as bytes, whose kind of memory is fixed at construction.
@@ -131,6 +140,25 @@ class Array {
   T* data_ = nullptr;
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;
+};
+
+/// Copies of several arrays to the host that wait for the device once between them.
+class HostReads {
+ public:
+  /// Sizes `to` at once and has it filled by wait(); neither may change until then.
+  template <class T>
+  void add(const Array<T>& from, std::vector<T>& to) {
+    to.resize(from.size());
+    if (!from.empty()) reads_.push_back({to.data(), from.data(), from.size() * sizeof(T)});
+  }
+  /// Copies what was added, in the order of the context's stream. @pre The arrays live in the context's memory.
+  void wait(const Context& context) {
+    if (!reads_.empty()) detail::read_memory(context, Span<const detail::MemoryRead>(reads_));
+    reads_.clear();
+  }
+
+ private:
+  std::vector<detail::MemoryRead> reads_;
 };
 
 }  // namespace foothold

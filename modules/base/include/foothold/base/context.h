@@ -10,6 +10,7 @@
 #include <string>
 
 #include "foothold/base/platform.h"
+#include "foothold/base/span.h"
 #include "foothold/base/trace.h"
 
 namespace foothold {
@@ -17,10 +18,13 @@ namespace foothold {
 class Context;
 
 namespace detail {
+struct MemoryRead;
 /// Device scratch memory of library calls; see exec/cuda_executor.cuh.
 void* cuda_scratch(const Context& context, std::size_t num_bytes);
 /// Copies from the memory of the context's device to the host, in the order of its stream, and waits for the copy: how results arrive.
 void read_memory(const Context& context, void* host, const void* device, std::size_t num_bytes);
+/// The same for several pieces of memory, with one wait.
+void read_memory(const Context& context, Span<const MemoryRead> reads);
 /// Copies from the host to the memory of the context's device in the order of its stream, without waiting for what was asked of the stream
 /// before. The host's memory may be reused at once.
 void write_memory(const Context& context, void* device, const void* host, std::size_t num_bytes);
@@ -67,7 +71,7 @@ class Context {
 
  private:
   friend void* detail::cuda_scratch(const Context& context, std::size_t num_bytes);
-  friend void detail::read_memory(const Context& context, void* host, const void* device, std::size_t num_bytes);
+  friend void detail::read_memory(const Context& context, Span<const detail::MemoryRead> reads);
   friend void detail::write_memory(const Context& context, void* device, const void* host, std::size_t num_bytes);
 
   struct State;

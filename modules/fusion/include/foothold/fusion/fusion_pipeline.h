@@ -134,6 +134,7 @@ class FusionPipeline : public Persistent {
   PoseRefiner refiner_;
   RecoveryPolicy policy_;
   SurfaceMap rendering_;
+  Array<SE3> guess_;  // of the pose to be tracked
   SE3 world_from_camera_;
   bool started_ = false;
   bool loss_forced_ = false;

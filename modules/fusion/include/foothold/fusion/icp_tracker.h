@@ -4,8 +4,10 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "foothold/api/frame.h"
+#include "foothold/base/array.h"
 #include "foothold/base/settings.h"
 #include "foothold/fusion/raycaster.h"
 
@@ -112,6 +114,16 @@ class IcpTracker {
   /// @return The best pose found; measures.well_posed is false where the data did not determine one.
   /// @pre set_frame() was called; `model` lives in the context's memory and is not empty.
   TrackingResult track(const SurfaceMap& model, const SE3& guess_world_from_camera);
+
+  /// Aligns the frame with each of several renderings, all at once, each from a guess of its own, and does not wait for the device.
+  /// @pre As for track(); there are as many guesses as renderings, in the context's memory.
+  void align_all(const SurfaceMap& models, const Array<SE3>& guesses_world_from_camera);
+  /// Where align_all() ended, in the context's memory: poses to render or to compare next, or guesses to go on from.
+  const Array<SE3>& world_from_cameras() const;
+  /// Asks for what results() then says, once the reads were waited for.
+  void queue_results(HostReads& reads);
+  /// One for each rendering; see track().
+  std::vector<TrackingResult> results() const;
 
   const IcpSettings& settings() const { return settings_; }
 

@@ -87,8 +87,11 @@ std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names();
 ///
 /// Every candidate is rendered coarsely, aligned and scored; the best few are rendered finely, aligned twice and judged: depth that agrees,
 /// surfaces that the frame looks through, things in the map's free space, too little overlap, colour, residual and Hessian all count.
-/// Once one of them is good enough, those that looked hopeless coarsely are left out. If none is, the best is moved along the direction in
-/// which its surfaces hold it least, and the same is done with what comes of that.
+/// Those that looked hopeless coarsely are refined only if none of the others is good enough. If nothing is, the best is moved along the
+/// direction in which its surfaces hold it least, and the same is done with what comes of that.
+///
+/// Cost: all candidates go through each step together, as do the finalists, so that the host waits for the device twice; a third time if
+/// hopeless ones are refined, too, and as often again for what slides. Memory for max_candidates coarse and num_finalists fine renderings.
 class PoseRefiner {
  public:
   /// @throws InvalidSettings
@@ -116,11 +119,18 @@ class PoseRefiner {
   std::vector<RefinedPose> refine_ranked(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals);
   /// Starts along the loosest direction of a pose, nearest first; empty where none is known.
   std::vector<PoseEstimate> slide(const RefinedPose& pose) const;
-  RefinedPose align_coarsely(const Frame& frame, const TsdfVolume& volume, const SE3& proposal);
-  RefinedPose align_finely(const Frame& frame, const TsdfVolume& volume, const SE3& proposal);
-  RefinedPose judge_rendered(const TrackingResult& tracked);
+  /// The distinct proposals, aligned coarsely, by falling score: at most as many different places as there are finalists.
+  std::vector<RefinedPose> rank_coarsely(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals);
+  std::vector<RefinedPose> refine_finalists(const Frame& frame, const TsdfVolume& volume, Span<const RefinedPose> ranked);
+  /// Aligns poses coarsely, or finely, and judges them: one result for each.
+  std::vector<RefinedPose> align_coarsely(const Frame& frame, const TsdfVolume& volume, Span<const SE3> proposals);
+  std::vector<RefinedPose> align_finely(const Frame& frame, const TsdfVolume& volume, Span<const SE3> proposals);
+  /// Judges what was aligned with the renderings in map_.
+  std::vector<RefinedPose> judge_rendered(IcpTracker& aligned);
   bool is_same(const SE3& a, const SE3& b) const;
+  bool is_good(const RefinedPose& pose) const { return pose.score > classifier_.good_threshold; }
 
+  Context context_;
   PoseRefinerSettings settings_;
   ClassifierModel classifier_;
   Raycaster raycaster_;
@@ -128,6 +138,7 @@ class PoseRefiner {
   IcpTracker fine_icp_;
   ViewCheck check_;
   SurfaceMap map_;
+  Array<SE3> proposals_;
 };
 
 }  // namespace foothold

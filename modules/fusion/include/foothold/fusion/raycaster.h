@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "foothold/base/array.h"
 #include "foothold/base/camera.h"
 #include "foothold/base/se3.h"
 #include "foothold/fusion/tsdf_volume.h"
@@ -35,16 +36,21 @@ struct SurfacePixel {
 };
 static_assert(sizeof(SurfacePixel) == 16, "surface maps are shared with kernels");
 
-/// A rendered surface, in the memory of the context that rendered it.
+/// A rendered surface, or several from different poses of one camera, in the memory of the context that rendered them.
 struct SurfaceMap {
-  explicit SurfaceMap(MemoryKind memory = MemoryKind::kHost) : pixels(memory), colours(memory) {}
+  explicit SurfaceMap(MemoryKind memory = MemoryKind::kHost) : world_from_cameras(memory), pixels(memory), colours(memory) {}
 
+  /// Of several renderings only the camera counts, not its pose.
   RenderCamera camera;
+  /// The pose of each rendering.
+  Array<SE3> world_from_cameras;
+  /// One rendering after another.
   Array<SurfacePixel> pixels;
   /// As many as pixels if colour was asked for, else none; black where no surface was hit.
   Array<Rgb8> colours;
 
   bool empty() const { return pixels.empty(); }
+  std::size_t num_renderings() const { return world_from_cameras.size(); }
 };
 
 struct RaycasterSettings {
@@ -82,6 +88,12 @@ class Raycaster {
 
   /// Renders `volume` into `map`, whose memory is reused. @pre the volume and the map live in the context's memory; the image is not empty.
   void render(const TsdfVolume& volume, const RenderCamera& camera, SurfaceMap& map, bool with_colour = false);
+
+  /// Renders `volume` from each of several poses, all at once: the camera is `camera` but for its pose.
+  /// @pre As for render(); the poses, too, live in the context's memory and are not those of `map`; all images together have fewer than
+  /// 2^31 pixels, and there are fewer than 2^31 pairs of a pose and a block.
+  void render_all(const TsdfVolume& volume, const RenderCamera& camera, const Array<SE3>& world_from_cameras, SurfaceMap& map,
+                  bool with_colour = false);
 
  private:
   Context context_;

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "foothold/api/frame.h"
+#include "foothold/base/array.h"
 #include "foothold/base/settings.h"
 #include "foothold/fusion/raycaster.h"
 
@@ -69,6 +71,14 @@ class ViewCheck {
   /// colour_correlation is 0.
   /// @pre set_frame() was called.
   ViewAgreement compare(const SurfaceMap& model, const SE3& world_from_camera);
+
+  /// Compares the frame with each of several renderings, each from a pose of its own, and does not wait for the device.
+  /// @pre As for compare(); there are as many poses as renderings, in the context's memory.
+  void compare_all(const SurfaceMap& models, const Array<SE3>& world_from_cameras);
+  /// Asks for what results() then says, once the reads were waited for.
+  void queue_results(HostReads& reads);
+  /// One for each rendering; see compare().
+  std::vector<ViewAgreement> results() const;
 
  private:
   Context context_;
