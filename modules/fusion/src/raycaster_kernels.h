@@ -261,7 +261,6 @@ struct RenderTile {
   template <class Team>
   FOOTHOLD_HD void operator()(const Team& team, NoScratch&, std::size_t tile) const {
     const ImageItem item(tile, camera.num_tiles);
-    const SE3 world_from_camera = camera.world_from_cameras[item.image];
     const int u0 = item.index % camera.num_tile_columns * kRayTileWidth;
     const int v0 = item.index / camera.num_tile_columns * kRayTileHeight;
     RayMarcher marcher(volume, step_fraction);
@@ -269,7 +268,7 @@ struct RenderTile {
       const int u = u0 + i % kRayTileWidth;
       const int v = v0 + i / kRayTileWidth;
       if (u >= camera.width || v >= camera.height) continue;
-      const Ray ray = ray_of(world_from_camera, u, v);
+      const Ray ray = ray_of(camera.world_from_cameras[item.image], u, v);  // read again: registers are for the march
       const int pixel = item.image * camera.num_pixels() + v * camera.width + u;
       const int range = item.image * camera.num_ranges + v / kRangeTilePx * camera.num_range_columns + u / kRangeTilePx;
       const float depth_m = marcher.march(ray, float_of_bits(near[range]), float_of_bits(far[range]));
