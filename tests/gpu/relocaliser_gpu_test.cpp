@@ -118,6 +118,7 @@ TEST_CASE("CUDA: poses are the CPU's to a millimetre and a milliradian") {
 }
 
 TEST_CASE("CUDA: the paper's settings give the CPU's poses") {
+  // The preset but for its sizes, which are more than the emulated device has the patience for.
   ForestRelocaliserSettings settings = ForestRelocaliserSettings::preset("paper");
   settings.reservoirs.capacity = 128;
   settings.clustering.leaves_per_frame = 512;
