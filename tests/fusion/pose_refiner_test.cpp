@@ -63,10 +63,7 @@ TEST_CASE("PoseRefiner: finds the right candidate behind wrong ones, and refuses
   const std::vector<RefinedPose> refined = refiner.refine(frame.view(), office_map(), with_right);
   REQUIRE(refined.front().accepted);
   REQUIRE(translation_distance_m(refined.front().world_from_camera, truth) < kFineM);
-  for (std::size_t i = 1; i < refined.size(); ++i) {
-    REQUIRE(refined[i].score <= refined[i - 1].score);
-    REQUIRE_FALSE(refined[i].accepted);
-  }
+  for (std::size_t i = 1; i < refined.size(); ++i) REQUIRE_FALSE(refined[i].accepted);
 }
 
 TEST_CASE("PoseRefiner: a pose that slid along the surfaces that hold it least is found again") {
@@ -89,6 +86,30 @@ TEST_CASE("PoseRefiner: a pose that slid along the surfaces that hold it least i
       REQUIRE(translation_distance_m(refined.front().world_from_camera, truth) < kFineM);
     }
   }
+}
+
+TEST_CASE("PoseRefiner: of equal steps, what the wear on them says counts, not how much of the map is in view") {
+  test::RoomRecording learnt("synthetic:stairs?frames=120");
+  test::RoomRecording seen("synthetic:stairs?trajectory=test&frames=120");
+  const TsdfVolume volume = learnt.fused(Context(), 0, 120, 4);
+  PoseRefiner refiner(volume.context());
+  const RgbdFrame& frame = seen.frame(kSeen);
+  const SE3& truth = *frame.world_from_camera;
+  const Eigen::Vector3f step_world(0.0F, 0.17F, 0.28F);
+  SE3 above = truth;
+  above.translation += step_world;
+  SE3 below = truth;
+  below.translation -= step_world;
+  // From a step higher, more of the frame falls on the map than from the truth.
+  REQUIRE(refiner.refine_one(frame.view(), volume, above).score > refiner.refine_one(frame.view(), volume, truth).score);
+  const std::vector<RefinedPose> refined =
+      refiner.refine(frame.view(), volume, std::vector<PoseEstimate>{proposal(above), proposal(truth), proposal(below)});
+  REQUIRE(refined.front().accepted);
+  REQUIRE(refined.front().candidate == 1);
+  REQUIRE(translation_distance_m(refined.front().world_from_camera, truth) < kFineM);
+
+  const std::vector<RefinedPose> wrong = refiner.refine(frame.view(), volume, std::vector<PoseEstimate>{proposal(above), proposal(below)});
+  REQUIRE_FALSE(wrong.front().accepted);  // one is as good as the other
 }
 
 TEST_CASE("PoseRefiner: accepts nothing for a frame of another room, a covered lens or no depth") {

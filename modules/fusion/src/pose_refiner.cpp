@@ -42,8 +42,6 @@ bool has_colour(const ViewAgreement& agreement) { return agreement.colour_correl
 RenderCamera reduced_camera(const Frame& frame, int divisor) {
   return RenderCamera{frame.calibration.depth, frame.depth.width, frame.depth.height, SE3{}}.reduced(divisor);
 }
-
-bool scores_higher(const RefinedPose& a, const RefinedPose& b) { return a.score > b.score; }
 }  // namespace
 
 void PoseRefinerSettings::validate() const {
@@ -85,6 +83,21 @@ PoseRefiner::PoseRefiner(const Context& context, const PoseRefinerSettings& sett
       proposals_(context.memory()) {
   settings.validate();
   FOOTHOLD_EXPECTS(classifier.features.size() == acceptance_feature_names().size());
+}
+
+bool PoseRefiner::is_good(const RefinedPose& pose) const { return pose.score > classifier_.good_threshold; }
+
+bool PoseRefiner::is_better(const RefinedPose& a, const RefinedPose& b) const {
+  // The score asks how much there is to go by, overlap and all, and whether that can be believed. Of two places that can, equal steps of a
+  // staircase, the one where more of the map is in view is no better for that: only what tells them apart counts.
+  if (!is_good(a) || !is_good(b)) return a.score > b.score;
+  return a.agreement.texture_correlation > b.agreement.texture_correlation;
+}
+
+bool PoseRefiner::is_rival(const RefinedPose& other, const RefinedPose& best) const {
+  const float unexplained = 1.0F - best.agreement.texture_correlation;
+  const bool tells_apart = 1.0F - other.agreement.texture_correlation > settings_.ambiguity_ratio * unexplained;
+  return is_good(other) && !tells_apart && !is_same(other.world_from_camera, best.world_from_camera);
 }
 
 float PoseRefiner::acceptance_probability() const { return classifier_.probability(classifier_.good_threshold); }
@@ -164,7 +177,7 @@ std::vector<RefinedPose> PoseRefiner::rank_coarsely(const Frame& frame, const Ts
   }
   std::vector<RefinedPose> candidates = align_coarsely(frame, volume, starts);
   for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].candidate = indices[i];
-  std::stable_sort(candidates.begin(), candidates.end(), scores_higher);
+  std::stable_sort(candidates.begin(), candidates.end(), [&](const RefinedPose& a, const RefinedPose& b) { return is_better(a, b); });
 
   std::vector<RefinedPose> distinct;
   for (const RefinedPose& candidate : candidates) {
@@ -199,7 +212,7 @@ std::vector<RefinedPose> PoseRefiner::refine_ranked(const Frame& frame, const Ts
       if (is_good(pose)) break;  // hopeless ones behind it cannot rival what was found
     }
   }
-  std::stable_sort(finalists.begin(), finalists.end(), scores_higher);
+  std::stable_sort(finalists.begin(), finalists.end(), [&](const RefinedPose& a, const RefinedPose& b) { return is_better(a, b); });
   return finalists;
 }
 
@@ -231,15 +244,13 @@ std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolum
       slid.candidate = candidate;
       finalists.push_back(slid);
     }
-    std::stable_sort(finalists.begin(), finalists.end(), scores_higher);
+    std::stable_sort(finalists.begin(), finalists.end(), [&](const RefinedPose& a, const RefinedPose& b) { return is_better(a, b); });
   }
 
   RefinedPose& best = finalists.front();
-  best.accepted = has_colour(best.agreement) && is_good(best);
-  for (std::size_t i = 1; i < finalists.size(); ++i) {
-    const bool rivals = is_good(finalists[i]) && finalists[i].score > best.score - settings_.ambiguity_margin;
-    if (rivals && !is_same(finalists[i].world_from_camera, best.world_from_camera)) best.accepted = false;
-  }
+  const bool is_ambiguous =
+      std::any_of(finalists.begin() + 1, finalists.end(), [&](const RefinedPose& other) { return is_rival(other, best); });
+  best.accepted = has_colour(best.agreement) && is_good(best) && !is_ambiguous;
   return finalists;
 }
 

@@ -27,8 +27,9 @@ struct PoseRefinerSettings {
   int coarse_divisor = 8;
   /// Finalists are aligned and judged in images reduced by this divisor.
   int fine_divisor = 4;
-  /// A second, different pose must score at least this much less than the best, or the place is ambiguous and neither is believed.
-  float ambiguity_margin = 0.5F;
+  /// A second, different pose that is good enough, too, must leave at least this many times as much of the texture unexplained (1 less its
+  /// correlation) as the best, or the place is ambiguous and neither is believed.
+  float ambiguity_ratio = 2.0F;
   /// Poses from which less than this part of the frame falls on the map are refused outright: what little there is agrees easily.
   float min_overlap = 0.2F;
   /// Where nothing is good enough, starts at this distance from one another, up to this far from the best pose, are tried along the
@@ -49,8 +50,8 @@ struct PoseRefinerSettings {
       "Reduction of the images in which all candidates are ranked (T: replay_sequence, kitchen).", Range{1, 32});
     v(&PoseRefinerSettings::fine_divisor, "fine_divisor",
       "Reduction of the images in which finalists are judged (T: replay_sequence, kitchen).", Range{1, 32});
-    v(&PoseRefinerSettings::ambiguity_margin, "ambiguity_margin", "Lead in score over the next different pose (T: train_quality_gate).",
-      Range{0.0, 100.0});
+    v(&PoseRefinerSettings::ambiguity_ratio, "ambiguity_ratio",
+      "Lead in unexplained texture over the next different pose (T: relocalisation_benchmark, stairs).", Range{1.0, 100.0});
     v(&PoseRefinerSettings::min_overlap, "min_overlap", "Part of the frame that must fall on the map (T: train_quality_gate; R: 0.1).",
       Range{0.0, 1.0});
     v(&PoseRefinerSettings::slide_step_m, "slide_step_m",
@@ -98,7 +99,8 @@ class PoseRefiner {
   explicit PoseRefiner(const Context& context, const PoseRefinerSettings& settings = {},
                        const ClassifierModel& classifier = default_acceptance_classifier());
 
-  /// @return The finalists by falling score; only the first can be accepted. Empty without proposals.
+  /// @return The finalists, best first: good ones by texture, then the rest by score. Only the first can be accepted. Empty without
+  /// proposals.
   /// @pre describe_frame_error(frame) is empty; frame and volume live in the context's memory.
   std::vector<RefinedPose> refine(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals);
 
@@ -115,11 +117,11 @@ class PoseRefiner {
   float acceptance_probability() const;
 
  private:
-  /// Ranks coarsely, aligns the best finely; these, by falling score.
+  /// Ranks coarsely, aligns the best finely; these, best first.
   std::vector<RefinedPose> refine_ranked(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals);
   /// Starts along the loosest direction of a pose, nearest first; empty where none is known.
   std::vector<PoseEstimate> slide(const RefinedPose& pose) const;
-  /// The distinct proposals, aligned coarsely, by falling score: at most as many different places as there are finalists.
+  /// The distinct proposals, aligned coarsely, best first: at most as many different places as there are finalists.
   std::vector<RefinedPose> rank_coarsely(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals);
   std::vector<RefinedPose> refine_finalists(const Frame& frame, const TsdfVolume& volume, Span<const RefinedPose> ranked);
   /// Aligns poses coarsely, or finely, and judges them: one result for each.
@@ -128,7 +130,9 @@ class PoseRefiner {
   /// Judges what was aligned with the renderings in map_.
   std::vector<RefinedPose> judge_rendered(IcpTracker& aligned);
   bool is_same(const SE3& a, const SE3& b) const;
-  bool is_good(const RefinedPose& pose) const { return pose.score > classifier_.good_threshold; }
+  bool is_good(const RefinedPose& pose) const;
+  bool is_better(const RefinedPose& a, const RefinedPose& b) const;
+  bool is_rival(const RefinedPose& other, const RefinedPose& best) const;
 
   Context context_;
   PoseRefinerSettings settings_;
