@@ -59,6 +59,17 @@ FusionRun run_fusion(const Context& context, Trace& trace, const Sequence& seque
   return run;
 }
 
+namespace {
+void add(const RefinedPose& refined, const SE3& truth, Ceiling& ceiling) {
+  const double distance_m = translation_distance_m(refined.world_from_camera, truth);
+  const double angle_deg = 57.29578 * rotation_distance_rad(refined.world_from_camera, truth);
+  ceiling.num_within_5 += distance_m <= 0.05 && angle_deg <= 5.0 ? 1 : 0;
+  ceiling.num_within_10 += distance_m <= 0.1 && angle_deg <= 10.0 ? 1 : 0;
+  ceiling.num_accepted += refined.accepted ? 1 : 0;
+  ceiling.distances_m.push_back(distance_m);
+}
+}  // namespace
+
 CeilingRun run_ceiling(const Context& context, const Sequence& map, const Sequence& tested, int stride, const FusionSettings& settings,
                        const std::function<bool(int)>& progress) {
   TsdfVolume volume(context, settings.volume);
@@ -73,14 +84,11 @@ CeilingRun run_ceiling(const Context& context, const Sequence& map, const Sequen
   for (int i = 0; i < tested.num_frames(); i += stride) {
     const RgbdFrame frame = tested.load(i);
     if (frame.world_from_camera) {
-      const RefinedPose refined = refiner.refine_one(frame.view(), volume, *frame.world_from_camera);
-      const double distance_m = translation_distance_m(refined.world_from_camera, *frame.world_from_camera);
-      const double angle_deg = 57.29578 * rotation_distance_rad(refined.world_from_camera, *frame.world_from_camera);
+      const SE3& truth = *frame.world_from_camera;
+      const PoseEstimate proposal{truth, 1.0F};
       ++run.num_frames;
-      run.num_within_5 += distance_m <= 0.05 && angle_deg <= 5.0 ? 1 : 0;
-      run.num_within_10 += distance_m <= 0.1 && angle_deg <= 10.0 ? 1 : 0;
-      run.num_accepted += refined.accepted ? 1 : 0;
-      run.distances_m.push_back(distance_m);
+      add(refiner.refine_one(frame.view(), volume, truth), truth, run.aligned);
+      add(refiner.refine(frame.view(), volume, Span<const PoseEstimate>(&proposal, 1)).front(), truth, run.refined);
     }
     if (!progress(++num_done)) break;
   }

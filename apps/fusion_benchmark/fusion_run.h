@@ -42,12 +42,17 @@ FusionRun run_fusion(const Context& context, Trace& trace, const Sequence& seque
 
 /// How far alignment with a map moves the true poses of frames: what no relocaliser that aligns its answers can beat on a recording whose
 /// true poses do not agree with one another.
-struct CeilingRun {
-  int num_frames = 0;
+struct Ceiling {
   int num_within_5 = 0;   ///< 5 cm and 5 deg
   int num_within_10 = 0;  ///< 10 cm and 10 deg
+  int num_accepted = 0;   ///< by the acceptance classifier
   std::vector<double> distances_m;
-  int num_accepted = 0;  ///< by the acceptance classifier
+};
+
+struct CeilingRun {
+  int num_frames = 0;
+  Ceiling aligned;  ///< by the last stage of refinement alone
+  Ceiling refined;  ///< as what a relocaliser proposes is: by all stages, which align further
 };
 
 /// Fuses one recording with its true poses, then aligns the frames of another in the same world, from their true poses.

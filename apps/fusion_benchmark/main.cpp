@@ -83,6 +83,20 @@ nlohmann::json to_json(const std::string& sequence, const FusionRun& run, const 
   return json;
 }
 
+void print_ceiling(const char* name, const Ceiling& ceiling, int num_frames) {
+  const double percent = 100.0 / std::max(1, num_frames);
+  std::printf("  %s: %.1f %% within 5 cm / 5 deg, %.1f %% within 10 / 10, median %.1f mm; %.1f %% accepted\n", name,
+              percent * ceiling.num_within_5, percent * ceiling.num_within_10, 1e3 * quantile(ceiling.distances_m, 0.5),
+              percent * ceiling.num_accepted);
+}
+
+nlohmann::json ceiling_json(const Ceiling& ceiling) {
+  return {{"within_5cm_5deg", ceiling.num_within_5},
+          {"within_10cm_10deg", ceiling.num_within_10},
+          {"accepted", ceiling.num_accepted},
+          {"median_m", quantile(ceiling.distances_m, 0.5)}};
+}
+
 /// Measures what alignment does to true poses.
 int run_ceilings(const Options& options, const FusionSettings& settings) {
   const Context context = make_context(options.device);
@@ -100,19 +114,14 @@ int run_ceilings(const Options& options, const FusionSettings& settings) {
       });
     }
     if (interrupted()) return kInterrupted;
-    const double percent = 100.0 / std::max(1, result.num_frames);
-    std::printf(
-        "%s on a map of %s: true poses after alignment: %.1f %% within 5 cm / 5 deg, %.1f %% within 10 / 10, median %.1f mm; %.1f %% "
-        "accepted\n",
-        spec.c_str(), options.map.c_str(), percent * result.num_within_5, percent * result.num_within_10,
-        1e3 * quantile(result.distances_m, 0.5), percent * result.num_accepted);
+    std::printf("%s on a map of %s, %d true poses:\n", spec.c_str(), options.map.c_str(), result.num_frames);
+    print_ceiling("aligned", result.aligned, result.num_frames);
+    print_ceiling("refined", result.refined, result.num_frames);
     json.push_back({{"map", options.map},
                     {"sequence", spec},
                     {"frames", result.num_frames},
-                    {"within_5cm_5deg", result.num_within_5},
-                    {"within_10cm_10deg", result.num_within_10},
-                    {"accepted", result.num_accepted},
-                    {"median_m", quantile(result.distances_m, 0.5)}});
+                    {"aligned", ceiling_json(result.aligned)},
+                    {"refined", ceiling_json(result.refined)}});
   }
   if (!options.json_file.empty()) write_file_atomically(options.json_file, json.dump(1) + "\n");
   return kSuccess;
