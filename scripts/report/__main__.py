@@ -31,7 +31,8 @@ def tiles(results):
     """The few numbers to remember."""
     shown = []
     for suite, document in results.suites("adapt"):
-        best = max(document["averages"], key=lambda a: a["recall"]["5cm_5deg"])
+        shipped = [a for a in document["averages"] if a["forest"] == "default"]
+        best = max(shipped or document["averages"], key=lambda a: a["recall"]["5cm_5deg"])
         name = best["method"] + (f", {best['forest']} forest" if best["forest"] else "")
         shown.append((f"{100 * best['recall']['5cm_5deg']:.1f} %", f"found within 5 cm and 5° on average, {SUITES[suite].lower()} ({name})"))
     for suite, document in results.suites("time"):

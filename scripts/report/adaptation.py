@@ -187,7 +187,7 @@ def frames_chart(document):
     for b in bins:
         x = chart.px(bin_position(b["bin"]))
         chart.bar(x - 8, chart.py(b["num_frames"]), 16, chart.height - chart.bottom - chart.py(b["num_frames"]), "faint")
-        chart.text(x, chart.py(b["num_frames"]) - 4, b["num_frames"])
+        chart.text(x, chart.py(b["num_frames"]) - 4, b["num_frames"], style="count")
     chart.text(chart.width - chart.right + 8, chart.height - chart.bottom, "frames", "start")
     return chart.svg()
 

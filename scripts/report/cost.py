@@ -5,7 +5,7 @@
 import base64
 
 import paper
-from charts import Axis, Chart, escape, figure, heat, percent_tick, series_class, table
+from charts import Axis, Chart, escape, figure, heat, legend, percent_tick, series_class, table
 from load import SUITES
 
 QUANTITIES = {"trained_frames": "frames learnt", "image_width_px": "image width [px]", "hypotheses": "hypotheses drawn", "leaves": "leaves of the forest"}
@@ -110,7 +110,7 @@ def roc_chart(document, suite):
 
 
 def calibration_chart(document, suite):
-    chart = Chart(Axis(0, 1), Axis(0, 100), width=420, height=260, right=120, label=f"Calibration, {SUITES[suite]}")
+    chart = Chart(Axis(0, 1), Axis(0, 100), width=420, height=260, label=f"Calibration, {SUITES[suite]}")
     chart.draw_axes(x_ticks=[0, 0.25, 0.5, 0.75, 1], y_ticks=[0, 25, 50, 75, 100], x_title="confidence", y_format=percent_tick)
     chart.add(f'<line x1="{chart.px(0):.1f}" y1="{chart.py(0):.1f}" x2="{chart.px(1):.1f}" y2="{chart.py(100):.1f}" class="mark"/>')
     for name, method in reversed(list(document["methods"].items())):
@@ -123,8 +123,7 @@ def calibration_chart(document, suite):
         chart.line([(b["mean_confidence"], 100 * b["num_right"] / b["num_answers"]) for b in bins], series_class(name))
         chart.dots([(b["mean_confidence"], 100 * b["num_right"] / b["num_answers"]) for b in bins], series_class(name), 3.6,
                    [f"{name}: {b['num_right']} of {b['num_answers']} right" for b in bins])
-        chart.end_label(bins[-1]["mean_confidence"], 100 * bins[-1]["num_right"] / bins[-1]["num_answers"], name, series_class(name))
-    return chart.svg()
+    return legend(list(document["methods"])) + chart.svg()
 
 
 def confidence(results):
