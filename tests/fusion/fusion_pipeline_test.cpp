@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "foothold/base/error.h"
+#include "foothold/base/random.h"
 #include "room_recording.h"
 #include "scene.h"
 #include "support/catch.h"
@@ -166,6 +167,64 @@ TEST_CASE("FusionPipeline: malformed frames count as lost ones, before and after
   oracle.answers = {{test::office().pose(kNumFollowed), 0.9F}};
   REQUIRE(pipeline.process(test::office().frame(kNumFollowed).view()).state == RecoveryState::kSettling);
   REQUIRE(bytes_of(pipeline.volume()) == before);
+}
+
+TEST_CASE("FusionPipeline: bursts of depth noise are neither fused nor believed, and the next clean frame is followed") {
+  Followed run;
+  const std::string before = bytes_of(run.pipeline.volume());
+  Random random(1, 0);
+  for (int i = 0; i < 5; ++i) {
+    RgbdFrame noisy = test::office().frame(kNumFollowed + i);
+    for (std::size_t p = 0; p < noisy.depth.size(); ++p) noisy.depth.data()[p] = 0.5F + 3.5F * random.uniform();
+    run.answer(test::office().pose(i));  // the relocaliser is taken in
+    run.last = run.pipeline.process(noisy.view());
+    REQUIRE(run.last.quality != TrackingQuality::kGood);
+    REQUIRE_FALSE(run.last.fused);
+  }
+  REQUIRE(bytes_of(run.pipeline.volume()) == before);
+  const int clean = kNumFollowed + 5;
+  run.answer(test::office().pose(clean));
+  run.process(clean);
+  REQUIRE(run.last.world_from_camera.has_value());
+  REQUIRE(translation_distance_m(*run.last.world_from_camera, test::office().pose(clean)) < 0.01F);
+}
+
+TEST_CASE("FusionPipeline: a frozen camera stands still") {
+  Followed run;
+  const SE3 stopped = *run.last.world_from_camera;
+  for (int i = 0; i < 15; ++i) {
+    run.process(kNumFollowed - 1);
+    REQUIRE(run.last.state == RecoveryState::kTracking);
+    REQUIRE(translation_distance_m(*run.last.world_from_camera, stopped) < 0.005F);
+  }
+}
+
+/// A frame with every second pixel of every second row.
+RgbdFrame halved(const RgbdFrame& frame) {
+  RgbdFrame half = frame;
+  half.depth = Image<float>(frame.depth.width() / 2, frame.depth.height() / 2);
+  half.colour = Image<Rgb8>(frame.colour.width() / 2, frame.colour.height() / 2);
+  for (int v = 0; v < half.depth.height(); ++v) {
+    for (int u = 0; u < half.depth.width(); ++u) {
+      half.depth(u, v) = frame.depth(2 * u, 2 * v);
+      half.colour(u, v) = frame.colour(2 * u, 2 * v);
+    }
+  }
+  half.calibration.depth = frame.calibration.depth.scaled(0.5F);
+  half.calibration.colour = frame.calibration.colour.scaled(0.5F);
+  return half;
+}
+
+TEST_CASE("FusionPipeline: a frame of another size gets the right pose or none, as do those behind it") {
+  Followed run;
+  for (int i = kNumFollowed; i < kNumFollowed + 6; ++i) {
+    run.answer(test::office().pose(i));
+    run.last = run.pipeline.process(i % 3 == 0 ? halved(test::office().frame(i)).view() : test::office().frame(i).view());
+    if (run.last.world_from_camera.has_value()) {
+      REQUIRE(translation_distance_m(*run.last.world_from_camera, test::office().pose(i)) < 0.015F);
+    }
+  }
+  REQUIRE(run.last.world_from_camera.has_value());
 }
 
 TEST_CASE("FusionPipeline: a copy goes on by itself with another relocaliser") {
