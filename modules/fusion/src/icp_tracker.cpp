@@ -49,15 +49,23 @@ void IcpTracker::set_frame(const Frame& frame) {
 }
 
 namespace {
-/// log det(H / count), or nothing if H is not positive definite.
-bool log_determinant(const IcpState& state, double count, float& result) {
-  double matrix[6][6];
+Eigen::Matrix<double, 6, 6> hessian_of(const IcpState& state) {
+  Eigen::Matrix<double, 6, 6> hessian;
   int row = 0;
   for (int a = 0; a < 6; ++a) {
     for (int b = a; b < 6; ++b, ++row) {
-      matrix[a][b] = state.sums[row] / count;
-      matrix[b][a] = matrix[a][b];
+      hessian(a, b) = state.sums[row];
+      hessian(b, a) = state.sums[row];
     }
+  }
+  return hessian;
+}
+
+/// log det(H / count), or nothing if H is not positive definite.
+bool log_determinant(const Eigen::Matrix<double, 6, 6>& hessian, double count, float& result) {
+  double matrix[6][6];
+  for (int a = 0; a < 6; ++a) {
+    for (int b = 0; b < 6; ++b) matrix[a][b] = hessian(a, b) / count;
   }
   if (!(count > 0.0) || !cholesky_factor(matrix, 6)) return false;
   double sum = 0.0;
@@ -68,15 +76,7 @@ bool log_determinant(const IcpState& state, double count, float& result) {
 
 /// The unit translation, in the rendering's frame, whose cost grows least when rotation minimises it: the eigenvector of the smallest
 /// eigenvalue of H's Schur complement S = H_tt - H_rt^T H_rr^-1 H_rt.
-Eigen::Vector3f loosest_translation(const IcpState& state) {
-  Eigen::Matrix<double, 6, 6> hessian;
-  int row = 0;
-  for (int a = 0; a < 6; ++a) {
-    for (int b = a; b < 6; ++b, ++row) {
-      hessian(a, b) = state.sums[row];
-      hessian(b, a) = state.sums[row];
-    }
-  }
+Eigen::Vector3f loosest_translation(const Eigen::Matrix<double, 6, 6>& hessian) {
   const Eigen::Matrix3d coupling = hessian.topRightCorner<3, 3>();
   const Eigen::Matrix3d rotation = hessian.topLeftCorner<3, 3>();
   const Eigen::Matrix3d complement = hessian.bottomRightCorner<3, 3>() - coupling.transpose() * rotation.ldlt().solve(coupling);
@@ -92,9 +92,10 @@ TrackingResult summarise(const IcpState& state, const SE3& world_from_camera, do
   result.num_valid = static_cast<int>(state.sums[kNumHessian + 8]);
   TrackingMeasures& measures = result.measures;
   const double num_valid = state.sums[kNumHessian + 8];
+  const Eigen::Matrix<double, 6, 6> hessian = hessian_of(state);
   measures.well_posed =
-      log_determinant(state, num_total, measures.log_det_total) && log_determinant(state, num_valid, measures.log_det_valid);
-  if (measures.well_posed) result.loosest_world = state.world_from_model.rotation * loosest_translation(state);
+      log_determinant(hessian, num_total, measures.log_det_total) && log_determinant(hessian, num_valid, measures.log_det_valid);
+  if (measures.well_posed) result.loosest_world = state.world_from_model.rotation * loosest_translation(hessian);
   if (num_valid > 0.0) {
     measures.inlier_fraction = static_cast<float>(state.sums[kNumHessian + 7] / num_valid);
     const double missing = num_valid - state.sums[kNumHessian + 7];
