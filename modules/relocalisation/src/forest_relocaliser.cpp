@@ -70,8 +70,10 @@ struct ForestRelocaliser::State {
         modes(context, forest.num_leaves(), settings.clustering),
         estimator(context, settings.pose) {}
 
-  /// Estimates for the frame in `image`, as seen by a camera with one of the forest's rolls.
-  std::vector<PoseEstimate> attempt(const Frame& frame, int roll);
+  /// @param explanation  Output: what the answer was made from; nullptr for none.
+  std::vector<PoseEstimate> answer(const Frame& frame, Explanation* explanation);
+  /// Estimates as seen by a camera with one of the forest's rolls.
+  std::vector<PoseEstimate> attempt(const PoseQuery& query, int roll);
   bool is_sure(const std::vector<PoseEstimate>& estimates) const {
     return !estimates.empty() && estimates.front().confidence >= settings.sure_confidence;
   }
@@ -85,13 +87,30 @@ struct ForestRelocaliser::State {
   LeafReservoirs reservoirs;
   LeafModes modes;
   PoseEstimator estimator;
-  int answered_roll = 0;  ///< of the last answer
 };
 
-std::vector<PoseEstimate> ForestRelocaliser::State::attempt(const Frame& frame, int roll) {
+std::vector<PoseEstimate> ForestRelocaliser::State::answer(const Frame& frame, Explanation* explanation) {
+  expect_usable(context, frame);
+  if (reservoirs.num_frames() == 0 || !has_blocks(frame, settings.features)) return {};
+  {
+    const ScopedStage stage(context, "relocalise/features");
+    image.compute(context, frame, scaled_to_width(settings.features.downscale, frame.depth.width));
+  }
+  const PoseQuery query{frame, image, reservoirs.view(), modes.view()};
+  estimator.prepare(context, query);
+  std::vector<PoseEstimate> best;
+  for (int roll = 0; roll < device_forest.num_rolls() && !is_sure(best); ++roll) {
+    std::vector<PoseEstimate> estimates = attempt(query, roll);
+    if (estimates.empty() || (!best.empty() && estimates.front().confidence <= best.front().confidence)) continue;
+    best = std::move(estimates);
+    if (explanation != nullptr) *explanation = foothold::explain(estimator, best, reservoirs.origin_world());
+  }
+  return best;
+}
+
+std::vector<PoseEstimate> ForestRelocaliser::State::attempt(const PoseQuery& query, int roll) {
   std::vector<PoseEstimate> estimates;
-  for (const PoseCandidate& candidate :
-       estimator.estimate(context, frame, image, device_forest.view(roll), reservoirs.view(), modes.view())) {
+  for (const PoseCandidate& candidate : estimator.estimate(context, query, device_forest.view(roll))) {
     SE3 world_from_camera = candidate.scene_from_camera;
     world_from_camera.rotation = nearest_rotation(world_from_camera.rotation);
     world_from_camera.translation += reservoirs.origin_world();
@@ -148,31 +167,12 @@ void ForestRelocaliser::update() {
   state_->modes.update(state_->context, state_->reservoirs);
 }
 
-std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) {
-  State& s = *state_;
-  expect_usable(s.context, frame);
-  if (s.reservoirs.num_frames() == 0 || !has_blocks(frame, s.settings.features)) return {};
-  {
-    const ScopedStage stage(s.context, "relocalise/features");
-    s.image.compute(s.context, frame, scaled_to_width(s.settings.features.downscale, frame.depth.width));
-  }
-  s.answered_roll = 0;
-  std::vector<PoseEstimate> best = s.attempt(frame, 0);
-  for (int roll = 1; roll < s.device_forest.num_rolls() && !s.is_sure(best); ++roll) {
-    std::vector<PoseEstimate> estimates = s.attempt(frame, roll);
-    if (estimates.empty() || (!best.empty() && estimates.front().confidence <= best.front().confidence)) continue;
-    best = std::move(estimates);
-    s.answered_roll = roll;
-  }
-  return best;
-}
+std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) { return state_->answer(frame, nullptr); }
 
 Explanation ForestRelocaliser::explain(const Frame& frame) {
-  const std::vector<PoseEstimate> estimates = relocalise(frame);
-  if (estimates.empty()) return {};
-  State& s = *state_;
-  s.attempt(frame, s.answered_roll);  // a later attempt may have overwritten what the answer was made from
-  return foothold::explain(s.estimator, estimates, s.reservoirs.origin_world());
+  Explanation explanation;
+  state_->answer(frame, &explanation);
+  return explanation;
 }
 
 void ForestRelocaliser::reset() {

@@ -48,7 +48,7 @@ PoseEstimator::PoseEstimator(const Context& context, const PoseEstimatorSettings
   buffers_.hypotheses.resize(num_hypotheses);
   buffers_.energies.resize(num_hypotheses);
   buffers_.order.resize(num_hypotheses);
-  buffers_.surfaces.resize(pool_size);
+  buffers_.surfaces.resize(static_cast<std::size_t>(std::min(settings.alignment_samples, settings.pool_size)));
   constexpr std::size_t kLargestGroup = 16;
   const std::size_t refined = (static_cast<std::size_t>(settings.cull_survivors) + kLargestGroup - 1) / kLargestGroup * kLargestGroup;
   buffers_.nearest.resize(refined * pool_size);
@@ -60,15 +60,18 @@ PoseEstimator::PoseEstimator(const Context& context, const PoseEstimatorSettings
   buffers_.misfits.assign(Span<const float>(not_aligned));
 }
 
-std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const Frame& frame, const FeatureImage& image,
-                                                   const ForestView& forest, const LeafReservoirsView& reservoirs,
-                                                   const LeafModesView& leaf_modes) {
+void PoseEstimator::prepare(const Context& context, const PoseQuery& query) {
+  const ScopedStage stage(context, "relocalise/prepare");
+  dispatch(context, [&](auto on) { PoseAlgorithms<typename decltype(on)::Executor>::prepare(context, query, settings_, buffers_); });
+}
+
+std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const PoseQuery& query, const ForestView& forest) {
   const auto pool_size = static_cast<std::size_t>(settings_.pool_size);
   const auto num_trees = static_cast<std::size_t>(forest.num_trees);
   buffers_.leaves.resize(pool_size * num_trees);
-  buffers_.offsets.resize(static_cast<std::size_t>(std::min(settings_.alignment_samples, settings_.pool_size)) * num_trees);
-  buffers_.modes.resize(pool_size * num_trees * static_cast<std::size_t>(leaf_modes.modes.max_blocks * kModeBlockSize));
-  const PoseProblem problem{context, frame, image, forest, reservoirs, leaf_modes, settings_};
+  buffers_.offsets.resize(buffers_.surfaces.size() * num_trees);
+  buffers_.modes.resize(pool_size * num_trees * static_cast<std::size_t>(query.leaf_modes.modes.max_blocks * kModeBlockSize));
+  const PoseProblem problem{context, query, forest, settings_};
   dispatch(context, [&](auto on) {
     using Algorithms = PoseAlgorithms<typename decltype(on)::Executor>;
     {
@@ -83,7 +86,7 @@ std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const
       const ScopedStage stage(context, "relocalise/ransac");
       Algorithms::preempt(problem, buffers_);
     }
-    if (!buffers_.remembered.empty()) {
+    if (settings_.ranking_points > 0) {
       const ScopedStage stage(context, "relocalise/rank");
       Algorithms::rank(problem, buffers_);
     }

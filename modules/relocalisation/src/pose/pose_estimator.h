@@ -90,6 +90,14 @@ struct SceneEvidence {
 };
 static_assert(sizeof(SceneEvidence) == 12, "lives in device memory");
 
+/// A frame whose camera is to be found, and the scene to find it in.
+struct PoseQuery {
+  const Frame& frame;
+  const FeatureImage& image;
+  LeafReservoirsView reservoirs;
+  LeafModesView leaf_modes;
+};
+
 /// Estimates the camera of a frame from the modes its pixels reach.
 ///
 /// Determinism: a function of the arguments and settings.seed, whatever the number of threads.
@@ -98,9 +106,13 @@ class PoseEstimator {
  public:
   PoseEstimator(const Context& context, const PoseEstimatorSettings& settings);
 
-  /// @return Candidates, best first. Empty if no triple passed the geometric checks: a normal outcome, not an error.
-  std::vector<PoseCandidate> estimate(const Context& context, const Frame& frame, const FeatureImage& image, const ForestView& forest,
-                                      const LeafReservoirsView& reservoirs, const LeafModesView& leaf_modes);
+  /// Chooses the pixels and the remembered points that every estimate of this query uses, however the camera is rolled.
+  void prepare(const Context& context, const PoseQuery& query);
+
+  /// @param forest  turned to a roll of the camera.
+  /// @return        Candidates, best first. Empty if no triple passed the geometric checks: a normal outcome, not an error.
+  /// @pre prepare() was called last with the same query.
+  std::vector<PoseCandidate> estimate(const Context& context, const PoseQuery& query, const ForestView& forest);
 
   /// Buffers of the algorithm; see pose_estimator_kernels.h.
   struct Buffers {

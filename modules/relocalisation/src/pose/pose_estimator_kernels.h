@@ -14,19 +14,18 @@
 
 namespace foothold {
 
-/// What a relocalisation works on.
+/// What an estimate works on.
 struct PoseProblem {
   const Context& context;
-  const Frame& frame;
-  const FeatureImage& image;
+  const PoseQuery& query;
   ForestView forest;
-  LeafReservoirsView reservoirs;
-  LeafModesView leaf_modes;
   const PoseEstimatorSettings& settings;
 };
 
 template <class Executor>
 struct PoseAlgorithms {
+  static void prepare(const Context& context, const PoseQuery& query, const PoseEstimatorSettings& settings,
+                      PoseEstimator::Buffers& buffers);
   static void fill_pool(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
   static void draw_hypotheses(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
   static void preempt(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
@@ -82,25 +81,52 @@ class HypothesisSet {
   CorrespondencePoolView pool_;
 };
 
+/// The depth camera as if its images were averaged as the query's is.
+inline Intrinsics averaged_intrinsics(const PoseQuery& query) {
+  return query.frame.calibration.depth.scaled(1.0F / static_cast<float>(query.image.downscale()));
+}
+
+/// Estimates surfaces of the averaged image.
+inline SurfaceEstimator surface_estimator(const PoseQuery& query) {
+  constexpr int kNeighbourDistancePx = 8;  // of a 640 px wide frame, each way
+  const int downscale = query.image.downscale();
+  const int neighbour_distance = scaled_to_width(kNeighbourDistancePx, query.frame.depth.width);
+  const int reach = neighbour_distance > downscale ? neighbour_distance / downscale : 1;
+  return {query.image.view(), averaged_intrinsics(query), reach};
+}
+
+template <class Executor>
+void PoseAlgorithms<Executor>::prepare(const Context& context, const PoseQuery& query, const PoseEstimatorSettings& settings,
+                                       PoseEstimator::Buffers& buffers) {
+  constexpr std::uint64_t kPoolStream = ~std::uint64_t{0};
+  constexpr std::uint64_t kRankingStream = ~std::uint64_t{1};
+  const Executor executor(context);
+  Random random(settings.seed, kPoolStream);
+  const float shift_u = random.uniform();
+  executor.for_each(buffers.sampled.size(), SamplePoolPixel{query.frame.depth, shift_u, random.uniform(),
+                                                            static_cast<std::uint32_t>(settings.pool_size), buffers.sampled.data()});
+  executor.for_each(buffers.remembered.size(),
+                    DrawRememberedPoint{query.reservoirs, derive_seed(settings.seed, kRankingStream), buffers.remembered.data()});
+  if (settings.alignment_iterations == 0) return;
+  executor.for_each(buffers.surfaces.size(),
+                    EstimateSurface{surface_estimator(query), query.image.downscale(), buffers.sampled.data(), buffers.surfaces.data()});
+}
+
 template <class Executor>
 void PoseAlgorithms<Executor>::fill_pool(const PoseProblem& problem, PoseEstimator::Buffers& buffers) {
   const Executor executor(problem.context);
+  const PoseQuery& query = problem.query;
   const auto pool_size = static_cast<std::size_t>(problem.settings.pool_size);
   const auto num_leaves = static_cast<std::uint32_t>(problem.forest.num_leaves);
-  Random random(problem.settings.seed, ~std::uint64_t{0});
-  const float shift_u = random.uniform();
-  executor.for_each(pool_size, SamplePoolPixel{problem.frame.depth, shift_u, random.uniform(), static_cast<std::uint32_t>(pool_size),
-                                               buffers.sampled.data()});
-  find_leaves(problem.context, problem.image, problem.forest, Span<const SampledPixel>(buffers.sampled),
-              Span<std::uint32_t>(buffers.leaves));
-  executor.for_each(pool_size, CountModes{problem.leaf_modes, problem.forest.num_trees, num_leaves, pool_size, buffers.leaves.data(),
+  find_leaves(problem.context, query.image, problem.forest, Span<const SampledPixel>(buffers.sampled), Span<std::uint32_t>(buffers.leaves));
+  executor.for_each(pool_size, CountModes{query.leaf_modes, problem.forest.num_trees, num_leaves, pool_size, buffers.leaves.data(),
                                           buffers.mode_counts.data(), buffers.has_modes.data()});
   executor.exclusive_scan(Span<const std::uint32_t>(buffers.mode_counts), Span<std::uint32_t>(buffers.first_modes));
   executor.exclusive_scan(Span<const std::uint32_t>(buffers.has_modes), Span<std::uint32_t>(buffers.slots));
-  executor.for_each(pool_size, GatherPixel{problem.frame.calibration.depth, problem.image.view(), problem.image.downscale(),
-                                           problem.leaf_modes, problem.forest.num_trees, num_leaves, pool_size, buffers.sampled.data(),
-                                           buffers.leaves.data(), buffers.mode_counts.data(), buffers.first_modes.data(),
-                                           buffers.slots.data(), buffers.pixels.data(), buffers.modes.data()});
+  executor.for_each(pool_size, GatherPixel{query.frame.calibration.depth, query.image.view(), query.image.downscale(), query.leaf_modes,
+                                           problem.forest.num_trees, num_leaves, pool_size, buffers.sampled.data(), buffers.leaves.data(),
+                                           buffers.mode_counts.data(), buffers.first_modes.data(), buffers.slots.data(),
+                                           buffers.pixels.data(), buffers.modes.data()});
 }
 
 template <class Executor>
@@ -140,25 +166,19 @@ void PoseAlgorithms<Executor>::preempt(const PoseProblem& problem, PoseEstimator
   }
 }
 
-/// Confronts the first candidates with the points drawn by rank().
+/// Confronts the first candidates with the points drawn by prepare().
 template <class Executor>
 void judge(const PoseProblem& problem, PoseEstimator::Buffers& buffers, const HypothesisSet<Executor>& set, std::size_t num_candidates) {
-  const Intrinsics intrinsics = problem.frame.calibration.depth.scaled(1.0F / static_cast<float>(problem.image.downscale()));
   set.executor().template for_each_team<NoScratch>(
-      num_candidates, JudgeCandidates<Executor>{problem.image.view(), intrinsics, buffers.remembered.data(),
+      num_candidates, JudgeCandidates<Executor>{problem.query.image.view(), averaged_intrinsics(problem.query), buffers.remembered.data(),
                                                 problem.settings.ranking_points, problem.settings.max_colour_difference,
                                                 buffers.hypotheses.data(), buffers.order.data(), buffers.evidence.data()});
 }
 
 template <class Executor>
 void PoseAlgorithms<Executor>::rank(const PoseProblem& problem, PoseEstimator::Buffers& buffers) {
-  constexpr std::uint64_t kRankingStream = ~std::uint64_t{1};
   const HypothesisSet<Executor> set(problem, buffers);
   const std::size_t num_candidates = buffers.candidates.size();
-  set.executor().for_each(
-      buffers.remembered.size(),
-      DrawRememberedPoint{problem.reservoirs, derive_seed(problem.settings.seed, kRankingStream), buffers.remembered.data()});
-  if (problem.settings.ranking_points == 0) return;
   judge(problem, buffers, set, num_candidates);
   set.executor().for_each(num_candidates, MakeEvidenceKey{buffers.evidence.data(), buffers.energies.data(), buffers.order.data()});
   set.executor().sort(Span<std::uint64_t>(buffers.order.data(), num_candidates), buffers.sort_buffer, 32, 64);
@@ -168,16 +188,9 @@ void PoseAlgorithms<Executor>::rank(const PoseProblem& problem, PoseEstimator::B
 /// that its leaves remember. The pool's leaves are those of fill_pool().
 template <class Executor>
 void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffers, const HypothesisSet<Executor>& set) {
-  constexpr int kNeighbourDistancePx = 8;  // of a 640 px wide frame, each way
   const PoseEstimatorSettings& settings = problem.settings;
-  const int downscale = problem.image.downscale();
-  const int neighbour_distance = scaled_to_width(kNeighbourDistancePx, problem.frame.depth.width);
-  const int reach = neighbour_distance > downscale ? neighbour_distance / downscale : 1;
-  const int num_samples = settings.alignment_samples < settings.pool_size ? settings.alignment_samples : settings.pool_size;
-  const Intrinsics intrinsics = problem.frame.calibration.depth.scaled(1.0F / static_cast<float>(downscale));
-  const SurfaceEstimator estimator{problem.image.view(), intrinsics, reach};
-  set.executor().for_each(static_cast<std::size_t>(num_samples),
-                          EstimateSurface{estimator, downscale, buffers.sampled.data(), buffers.surfaces.data()});
+  const auto num_samples = static_cast<int>(buffers.surfaces.size());
+  const SurfaceEstimator estimator = surface_estimator(problem.query);
   AlignmentState* const state = buffers.alignment.data();
   set.executor().for_each(1, BeginAlignment{buffers.order.data(), buffers.hypotheses.data(), state});
   const auto num_trees = static_cast<std::size_t>(problem.forest.num_trees);
@@ -194,8 +207,8 @@ void align_with_points(const PoseProblem& problem, PoseEstimator::Buffers& buffe
     const int num_used = 2 * i < settings.alignment_iterations ? num_samples / 3 : num_samples;  // few samples suffice at first
     set.executor().for_each(
         static_cast<std::size_t>(num_used) * num_trees,
-        MeasureOffset{problem.reservoirs, problem.forest.num_trees, static_cast<std::size_t>(settings.pool_size), buffers.leaves.data(),
-                      buffers.surfaces.data(), 1000.0F * radius_m, state, buffers.offsets.data()});
+        MeasureOffset{problem.query.reservoirs, problem.forest.num_trees, static_cast<std::size_t>(settings.pool_size),
+                      buffers.leaves.data(), buffers.surfaces.data(), 1000.0F * radius_m, state, buffers.offsets.data()});
     set.executor().template for_each_team<NoScratch>(
         1, AlignWithPoints<Executor>{problem.forest.num_trees, buffers.surfaces.data(), buffers.offsets.data(), num_used, radius_m, state});
   }
