@@ -40,6 +40,17 @@ TEST_CASE("SE3: composition with the inverse is the identity") {
   }
 }
 
+TEST_CASE("is_near: both distance and angle must be small") {
+  const SE3 pose = se3_exp((Tangent6() << 0.2F, -0.1F, 0.3F, 1.0F, 2.0F, -1.0F).finished());
+  const SE3 moved = se3_exp((Tangent6() << 0.0F, 0.0F, 0.0F, 0.0F, 0.04F, 0.0F).finished()) * pose;
+  SE3 turned = pose;
+  turned.rotation = se3_exp((Tangent6() << 0.0F, 0.05F, 0.0F, 0.0F, 0.0F, 0.0F).finished()).rotation * pose.rotation;
+  REQUIRE(is_near(pose, moved, 0.05F, 1.0F));
+  REQUIRE_FALSE(is_near(pose, moved, 0.03F, 1.0F));
+  REQUIRE(is_near(pose, turned, 0.01F, 3.0F));  // 0.05 rad are 2.9 deg
+  REQUIRE_FALSE(is_near(pose, turned, 0.01F, 2.5F));
+}
+
 TEST_CASE("rotation_distance_rad: reads tiny and large angles correctly") {
   for (const float angle : {0.0F, 1e-4F, 0.1F, 3.0F}) {
     Tangent6 tangent = Tangent6::Zero();

@@ -2,6 +2,10 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/fusion/pose_refiner.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "foothold/base/error.h"
 #include "foothold/fusion/refining_relocaliser.h"
 #include "room_recording.h"
@@ -88,6 +92,39 @@ TEST_CASE("PoseRefiner: a pose that slid along the surfaces that hold it least i
   }
 }
 
+/// Gives every view a probability of 0.1 and accepts from 0.2.
+ClassifierModel undecided() {
+  ClassifierModel model = default_acceptance_classifier();
+  for (ClassifierModel::Feature& feature : model.features) std::fill(std::begin(feature.weights), std::end(feature.weights), 0.0F);
+  model.bias = 0.0F;
+  model.probability_scale = 1.0F;
+  model.probability_offset = std::log(1.0F / 9.0F);
+  model.good_threshold = std::log(1.0F / 4.0F) - model.probability_offset;
+  return model;
+}
+
+TEST_CASE("PoseRefiner: the relocaliser's confidence multiplies the odds, up to a limit, where refinement stayed near its proposal") {
+  PoseRefiner refiner(office_map().context(), {}, undecided());
+  const RgbdFrame& frame = test::office().frame(kSeen + 1);
+  const auto refine = [&](float offset_m, float confidence) {
+    SE3 pose = *frame.world_from_camera;
+    pose.translation.x() += offset_m;
+    return refiner.refine(frame.view(), office_map(), std::vector<PoseEstimate>{{pose, confidence}}).front();
+  };
+  const auto odds = [&](float confidence) {
+    const float probability = refine(0.02F, confidence).probability;
+    return probability / (1.0F - probability);
+  };
+  REQUIRE(odds(0.5F) == Approx(1.0F / 9.0F));
+  REQUIRE(odds(0.8F) == Approx(4.0F / 9.0F));
+  const float most = PoseRefinerSettings{}.max_trust;
+  REQUIRE(odds(1.0F) == Approx(most / (1.0F - most) / 9.0F));
+  for (const float in_doubt : {0.1F, std::numeric_limits<float>::quiet_NaN()}) REQUIRE(odds(in_doubt) == odds(0.5F));
+  REQUIRE_FALSE(refine(0.02F, 0.5F).accepted);
+  REQUIRE(refine(0.02F, 0.8F).accepted);
+  REQUIRE_FALSE(refine(0.13F, 1.0F).accepted);  // what became of the pose is not what the relocaliser is sure of
+}
+
 TEST_CASE("PoseRefiner: of equal steps, what the wear on them says counts, not how much of the map is in view") {
   test::RoomRecording learnt("synthetic:stairs?frames=120");
   test::RoomRecording seen("synthetic:stairs?trajectory=test&frames=120");
@@ -118,7 +155,10 @@ TEST_CASE("PoseRefiner: accepts nothing for a frame of another room, a covered l
   for (int i = 0; i < kLastMapped; i += 8) proposals.push_back(proposal(test::office().pose(i)));
   test::RoomRecording elsewhere("synthetic:lounge?frames=40");
   for (const int i : {0, 30}) {
-    for (const RefinedPose& refined : refiner.refine(elsewhere.frame(i).view(), office_map(), proposals)) REQUIRE_FALSE(refined.accepted);
+    for (const float confidence : {0.5F, 1.0F}) {
+      for (PoseEstimate& proposal : proposals) proposal.confidence = confidence;
+      for (const RefinedPose& refined : refiner.refine(elsewhere.frame(i).view(), office_map(), proposals)) REQUIRE_FALSE(refined.accepted);
+    }
   }
   RgbdFrame covered = test::office().frame(kSeen);
   for (const float depth_m : {0.3F, 0.0F}) {

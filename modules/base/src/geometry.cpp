@@ -46,6 +46,11 @@ float rotation_distance_rad(const SE3& a, const SE3& b) {
 
 float translation_distance_m(const SE3& a, const SE3& b) { return (a.translation - b.translation).norm(); }
 
+bool is_near(const SE3& a, const SE3& b, float distance_m, float angle_deg) {
+  constexpr float kDegPerRad = 57.29578F;
+  return translation_distance_m(a, b) < distance_m && rotation_distance_rad(a, b) * kDegPerRad < angle_deg;
+}
+
 bool is_valid(const Intrinsics& k) {
   return std::isfinite(k.fx) && std::isfinite(k.fy) && std::isfinite(k.cx) && std::isfinite(k.cy) && k.fx > 0.0F && k.fy > 0.0F;
 }

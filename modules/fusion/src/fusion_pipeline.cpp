@@ -9,14 +9,9 @@
 namespace foothold {
 
 namespace {
-constexpr float kDegPerRad = 57.29578F;
 /// A relocalised pose this near to the tracked one confirms it: the error at which the papers of the field call a relocalisation right.
 constexpr float kSamePlaceM = 0.05F;
 constexpr float kSamePlaceDeg = 5.0F;
-
-bool is_near(const SE3& a, const SE3& b, float distance_m, float angle_deg) {
-  return translation_distance_m(a, b) < distance_m && rotation_distance_rad(a, b) * kDegPerRad < angle_deg;
-}
 }  // namespace
 
 void FusionSettings::validate() const {

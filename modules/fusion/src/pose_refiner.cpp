@@ -11,7 +11,9 @@
 namespace foothold {
 
 namespace {
-constexpr float kDegPerRad = 57.29578F;
+/// PoseEstimate::confidence speaks of poses as near to the truth as this.
+constexpr float kConfidentWithinM = 0.10F;
+constexpr float kConfidentWithinDeg = 10.0F;
 
 /// Alignment that ends at the level of the pyramid whose pixels match those of an image reduced by a divisor, and begins one above.
 IcpSettings at_divisor(IcpSettings settings, int divisor) {
@@ -85,12 +87,12 @@ PoseRefiner::PoseRefiner(const Context& context, const PoseRefinerSettings& sett
   FOOTHOLD_EXPECTS(classifier.features.size() == acceptance_feature_names().size());
 }
 
-bool PoseRefiner::is_good(const RefinedPose& pose) const { return pose.score > classifier_.good_threshold; }
+bool PoseRefiner::is_good(const RefinedPose& pose) const { return pose.probability > acceptance_probability(); }
 
 bool PoseRefiner::is_better(const RefinedPose& a, const RefinedPose& b) const {
-  // The score asks how much there is to go by, overlap and all, and whether that can be believed. Of two places that can, equal steps of a
-  // staircase, the one where more of the map is in view is no better for that: only what tells them apart counts.
-  if (!is_good(a) || !is_good(b)) return a.score > b.score;
+  // The probability asks how much there is to go by, overlap and all, and whether that can be believed. Of two places that can, equal steps
+  // of a staircase, the one where more of the map is in view is no better for that: only what tells them apart counts.
+  if (!is_good(a) || !is_good(b)) return a.probability > b.probability;
   return a.agreement.texture_correlation > b.agreement.texture_correlation;
 }
 
@@ -102,9 +104,7 @@ bool PoseRefiner::is_rival(const RefinedPose& other, const RefinedPose& best) co
 
 float PoseRefiner::acceptance_probability() const { return classifier_.probability(classifier_.good_threshold); }
 
-bool PoseRefiner::is_same(const SE3& a, const SE3& b) const {
-  return translation_distance_m(a, b) < settings_.same_pose_m && rotation_distance_rad(a, b) * kDegPerRad < settings_.same_pose_deg;
-}
+bool PoseRefiner::is_same(const SE3& a, const SE3& b) const { return is_near(a, b, settings_.same_pose_m, settings_.same_pose_deg); }
 
 RefinedPose PoseRefiner::judge(const TrackingMeasures& measures, const ViewAgreement& agreement) const {
   RefinedPose result;
@@ -121,6 +121,15 @@ RefinedPose PoseRefiner::judge(const TrackingMeasures& measures, const ViewAgree
   result.score = classifier_.score(Span<const float>(features.data(), features.size()));
   result.probability = classifier_.probability(result.score);
   return result;
+}
+
+void PoseRefiner::weigh(const PoseEstimate& proposal, RefinedPose& pose) const {
+  if (!is_near(proposal.world_from_camera, pose.world_from_camera, kConfidentWithinM, kConfidentWithinDeg)) return;
+  // In doubt it speaks neither for nor against: it proposed the pose all the same.
+  if (!(proposal.confidence > 0.5F)) return;
+  const float trust = std::min(proposal.confidence, settings_.max_trust);
+  const float odds = trust / (1.0F - trust);
+  pose.probability = pose.probability * odds / (pose.probability * odds + 1.0F - pose.probability);
 }
 
 std::vector<RefinedPose> PoseRefiner::judge_rendered(IcpTracker& aligned) {
@@ -176,7 +185,10 @@ std::vector<RefinedPose> PoseRefiner::rank_coarsely(const Frame& frame, const Ts
     indices.push_back(static_cast<int>(i));
   }
   std::vector<RefinedPose> candidates = align_coarsely(frame, volume, starts);
-  for (std::size_t i = 0; i < candidates.size(); ++i) candidates[i].candidate = indices[i];
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    candidates[i].candidate = indices[i];
+    weigh(proposals[static_cast<std::size_t>(indices[i])], candidates[i]);
+  }
   std::stable_sort(candidates.begin(), candidates.end(), [&](const RefinedPose& a, const RefinedPose& b) { return is_better(a, b); });
 
   std::vector<RefinedPose> distinct;
@@ -190,12 +202,16 @@ std::vector<RefinedPose> PoseRefiner::rank_coarsely(const Frame& frame, const Ts
   return distinct;
 }
 
-std::vector<RefinedPose> PoseRefiner::refine_finalists(const Frame& frame, const TsdfVolume& volume, Span<const RefinedPose> ranked) {
+std::vector<RefinedPose> PoseRefiner::refine_finalists(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals,
+                                                       Span<const RefinedPose> ranked) {
   if (ranked.empty()) return {};
   std::vector<SE3> starts;
   for (const RefinedPose& candidate : ranked) starts.push_back(candidate.world_from_camera);
   std::vector<RefinedPose> finalists = align_finely(frame, volume, starts);
-  for (std::size_t i = 0; i < finalists.size(); ++i) finalists[i].candidate = ranked[i].candidate;
+  for (std::size_t i = 0; i < finalists.size(); ++i) {
+    finalists[i].candidate = ranked[i].candidate;
+    weigh(proposals[static_cast<std::size_t>(ranked[i].candidate)], finalists[i]);
+  }
   return finalists;
 }
 
@@ -205,9 +221,9 @@ std::vector<RefinedPose> PoseRefiner::refine_ranked(const Frame& frame, const Ts
   const auto first_hopeless = std::find_if(ranked.begin(), ranked.end(), [&](const RefinedPose& pose) { return is_hopeless(pose); });
   const auto num_hopeful = static_cast<std::size_t>(first_hopeless - ranked.begin());
   const Span<const RefinedPose> all(ranked);
-  std::vector<RefinedPose> finalists = refine_finalists(frame, volume, all.subspan(0, num_hopeful));
+  std::vector<RefinedPose> finalists = refine_finalists(frame, volume, proposals, all.subspan(0, num_hopeful));
   if (std::none_of(finalists.begin(), finalists.end(), [&](const RefinedPose& pose) { return is_good(pose); })) {
-    for (const RefinedPose& pose : refine_finalists(frame, volume, all.subspan(num_hopeful, ranked.size() - num_hopeful))) {
+    for (const RefinedPose& pose : refine_finalists(frame, volume, proposals, all.subspan(num_hopeful, ranked.size() - num_hopeful))) {
       finalists.push_back(pose);
       if (is_good(pose)) break;  // hopeless ones behind it cannot rival what was found
     }

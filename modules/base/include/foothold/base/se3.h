@@ -70,4 +70,7 @@ float rotation_distance_rad(const SE3& a, const SE3& b);
 /// The distance between two origins [m].
 float translation_distance_m(const SE3& a, const SE3& b);
 
+/// True if the origins are less than `distance_m` apart and the orientations less than `angle_deg`.
+bool is_near(const SE3& a, const SE3& b, float distance_m, float angle_deg);
+
 }  // namespace foothold

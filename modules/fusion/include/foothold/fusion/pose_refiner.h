@@ -32,6 +32,9 @@ struct PoseRefinerSettings {
   float ambiguity_ratio = 2.0F;
   /// Poses from which less than this part of the frame falls on the map are refused outright: what little there is agrees easily.
   float min_overlap = 0.2F;
+  /// However sure a relocaliser is of a proposal, it counts as evidence of this probability at most: equal furniture deceives it, too.
+  /// 0.5 leaves the decision to the map alone.
+  float max_trust = 0.97F;
   /// Where nothing is good enough, starts at this distance from one another, up to this far from the best pose, are tried along the
   /// translation that its surfaces resist least: a view half of which is unmapped slides along a table until all of it is mapped.
   float slide_step_m = 0.15F;
@@ -54,6 +57,9 @@ struct PoseRefinerSettings {
       "Lead in unexplained texture over the next different pose (T: relocalisation_benchmark, stairs).", Range{1.0, 100.0});
     v(&PoseRefinerSettings::min_overlap, "min_overlap", "Part of the frame that must fall on the map (T: train_quality_gate; R: 0.1).",
       Range{0.0, 1.0});
+    v(&PoseRefinerSettings::max_trust, "max_trust",
+      "Most that a relocaliser's confidence counts for; 0.5 for nothing (T: relocalisation_benchmark, kitchen, teddy and rooms).",
+      Range{0.5, 0.999});
     v(&PoseRefinerSettings::slide_step_m, "slide_step_m",
       "Distance of the starts along the loosest direction [m] (T: relocalisation_benchmark, kitchen).", Range{0.01, 1.0});
     v(&PoseRefinerSettings::slide_reach_m, "slide_reach_m",
@@ -67,9 +73,9 @@ struct PoseRefinerSettings {
 /// A proposal after refinement.
 struct RefinedPose {
   SE3 world_from_camera;
-  float score = 0.0F;        ///< of the acceptance classifier; higher is better
-  float probability = 0.0F;  ///< calibrated, of the pose being right
-  bool accepted = false;     ///< above the classifier's threshold, and unambiguous
+  float score = 0.0F;        ///< of the acceptance classifier, which sees frame and map alone; higher is better
+  float probability = 0.0F;  ///< calibrated, of the pose being right, given the score and the relocaliser's confidence
+  bool accepted = false;     ///< probable enough, and unambiguous
   TrackingMeasures measures;
   ViewAgreement agreement;
   int candidate = 0;  ///< index of the proposal
@@ -87,7 +93,8 @@ std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names();
 /// Refines proposed poses by ICP on the map, ranks them by rendering, and accepts only what can be believed.
 ///
 /// Every candidate is rendered coarsely, aligned and scored; the best few are rendered finely, aligned twice and judged: depth that agrees,
-/// surfaces that the frame looks through, things in the map's free space, too little overlap, colour, residual and Hessian all count.
+/// surfaces that the frame looks through, things in the map's free space, too little overlap, colour, residual and Hessian all count. So
+/// does the relocaliser's confidence, by Bayes' rule, in a pose that stayed as near to the proposal as the confidence speaks of.
 /// Those that looked hopeless coarsely are refined only if none of the others is good enough. If nothing is, the best is moved along the
 /// direction in which its surfaces hold it least, and the same is done with what comes of that.
 ///
@@ -107,10 +114,10 @@ class PoseRefiner {
   /// Aligns one pose to the end, without ranking: the ceiling that refinement is measured against when started from the true pose.
   RefinedPose refine_one(const Frame& frame, const TsdfVolume& volume, const SE3& proposal);
 
-  /// What the acceptance classifier says of a pose that someone else aligned; all but the pose is filled in.
+  /// What the acceptance classifier says of a pose that someone else aligned and nobody proposed; all but the pose is filled in.
   RefinedPose judge(const TrackingMeasures& measures, const ViewAgreement& agreement) const;
 
-  /// Whether a pose scores so low that right ones hardly ever do.
+  /// Whether the view from a pose scores so low that right ones hardly ever do.
   bool is_hopeless(const RefinedPose& pose) const { return pose.score < classifier_.poor_threshold; }
 
   /// The probability at which poses are accepted.
@@ -123,10 +130,13 @@ class PoseRefiner {
   std::vector<PoseEstimate> slide(const RefinedPose& pose) const;
   /// The distinct proposals, aligned coarsely, best first: at most as many different places as there are finalists.
   std::vector<RefinedPose> rank_coarsely(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals);
-  std::vector<RefinedPose> refine_finalists(const Frame& frame, const TsdfVolume& volume, Span<const RefinedPose> ranked);
+  std::vector<RefinedPose> refine_finalists(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals,
+                                            Span<const RefinedPose> ranked);
   /// Aligns poses coarsely, or finely, and judges them: one result for each.
   std::vector<RefinedPose> align_coarsely(const Frame& frame, const TsdfVolume& volume, Span<const SE3> proposals);
   std::vector<RefinedPose> align_finely(const Frame& frame, const TsdfVolume& volume, Span<const SE3> proposals);
+  /// Adds the confidence in a proposal to what the map says of the pose that it became.
+  void weigh(const PoseEstimate& proposal, RefinedPose& pose) const;
   /// Judges what was aligned with the renderings in map_.
   std::vector<RefinedPose> judge_rendered(IcpTracker& aligned);
   bool is_same(const SE3& a, const SE3& b) const;
