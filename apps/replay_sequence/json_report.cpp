@@ -12,7 +12,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Raised when a key changes its meaning or goes away; new keys do not raise it.
-constexpr int kFormatVersion = 1;
+constexpr int kFormatVersion = 2;
 constexpr double kMb = 1e-6;
 
 /// JSON knows no NaN: what could not be measured is null.
@@ -111,7 +111,12 @@ std::string json_report(const ReplayOptions& options, const ReplaySettings& sett
     json["kidnapped"]["wrong_poses_believed"] = result.whole_kidnapped.num_wrong_believed;
     json["kidnapped"]["wrong_poses_fused"] = result.whole_kidnapped.num_wrong_fused;
   }
-  if (result.mesh_distance.has_value()) json["surface_from_undisturbed"] = mesh_json(*result.mesh_distance);
+  for (const SurfaceComparison& surface : result.surfaces) {
+    json["surfaces"].push_back({{"run", surface.run},
+                                {"reference", surface.reference},
+                                {"accuracy", mesh_json(surface.accuracy)},
+                                {"completeness", mesh_json(surface.completeness)}});
+  }
   json["summary"] = Json::object();
   for (const auto& [kind, summary] : kidnap_summaries(result)) json["summary"][kind] = summary_json(summary);
   json["kidnaps"] = Json::array();

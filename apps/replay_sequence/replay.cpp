@@ -11,6 +11,7 @@
 #include "common/progress_bar.h"
 #include "common/reconstruction.h"
 #include "common/unhurried_player.h"
+#include "foothold/api/frame_uploader.h"
 #include "foothold/base/error.h"
 #include "foothold/fusion/surface_mesh.h"
 #include "foothold/io/sequence.h"
@@ -100,6 +101,8 @@ class Replayer {
   KidnapRecord branch_off(const Reconstruction& reconstruction, const Kidnap& kidnap, const ReplayRun& so_far);
   std::optional<double> mapped_fraction(Reconstruction& reconstruction, const ReplayFrame& last, const RgbdFrame& first) const;
   void judge(ReplayResult& result) const;
+  Mesh mesh_from_true_poses() const;
+  void compare_surfaces(ReplayResult& result) const;
 
   const ReplayOptions& options_;
   const ReplaySettings& settings_;
@@ -244,6 +247,37 @@ void Replayer::judge(ReplayResult& result) const {
   if (result.kidnapped.has_value()) result.whole_kidnapped = outcome_of(result.kidnapped->frames);
 }
 
+Mesh Replayer::mesh_from_true_poses() const {
+  TsdfVolume volume(context_, settings_.fusion.volume);
+  const std::unique_ptr<FrameSource> source = open(plan_sequential_kidnaps(num_frames(), {}).steps);
+  apps::ProgressBar progress("fusing from true poses", num_frames());
+  FrameUploader uploader(context_);
+  RgbdFrame frame;
+  while (!stopped() && source->read(frame) == ReadStatus::kFrame) {
+    if (!frame.world_from_camera.has_value()) return {};
+    volume.integrate(uploader.upload(frame.view()), *frame.world_from_camera);
+    progress.advance();
+  }
+  return extract_mesh(volume);
+}
+
+/// Against one another, and against what the recording's own poses make of the same frames.
+void Replayer::compare_surfaces(ReplayResult& result) const {
+  const auto voxel_m = static_cast<double>(settings_.fusion.volume.voxel_size_m);
+  const double limit_m = std::max(0.05, voxel_m);
+  const auto compare = [&](const char* run, const Mesh& mesh, const char* reference_name, const Mesh& reference) {
+    if (mesh.vertices.empty() || reference.vertices.empty()) return;
+    result.surfaces.push_back(
+        {run, reference_name, mesh_distance(mesh, reference, voxel_m, limit_m), mesh_distance(reference, mesh, voxel_m, limit_m)});
+  };
+  const Mesh& undisturbed = result.undisturbed.mesh;
+  const Mesh& kidnapped = result.kidnapped->mesh;
+  compare("kidnapped", kidnapped, "undisturbed", undisturbed);
+  const Mesh from_true_poses = mesh_from_true_poses();
+  compare("undisturbed", undisturbed, "true poses", from_true_poses);
+  compare("kidnapped", kidnapped, "true poses", from_true_poses);
+}
+
 ReplayResult Replayer::run() {
   ReplayResult result;
   apps::restart_peak_memory();
@@ -255,11 +289,10 @@ ReplayResult Replayer::run() {
   result.undisturbed = play_undisturbed(independent, result.kidnaps);
   if (!plan.steps.empty() && !stopped()) {
     play_kidnapped(plan, result);
-    result.mesh_distance = mesh_distance(result.kidnapped->mesh, result.undisturbed.mesh, settings_.fusion.volume.voxel_size_m,
-                                         std::max(0.05, static_cast<double>(settings_.fusion.volume.voxel_size_m)));
   }
   judge(result);
-  result.peak_mb = apps::peak_memory_mb();
+  result.peak_mb = apps::peak_memory_mb();  // before surfaces are compared, which is no part of reconstruction
+  if (result.kidnapped.has_value() && !stopped()) compare_surfaces(result);
   result.complete = !stopped();
   return result;
 }

@@ -46,6 +46,14 @@ struct KidnapRecord {
   KidnapOutcome outcome;
 };
 
+/// How far one surface lies from another, and the other from the one.
+struct SurfaceComparison {
+  std::string run;
+  std::string reference;      ///< the run whose surface it is held against, or "true poses": the same frames fused from these
+  MeshDistance accuracy;      ///< of the run's vertices from the reference
+  MeshDistance completeness;  ///< of the reference's vertices from the run
+};
+
 /// How far a run's poses are from the true ones.
 struct RunError {
   int num_frames = 0;  ///< with a pose and a true pose
@@ -57,8 +65,8 @@ struct ReplayResult {
   ReplayRun undisturbed;
   std::optional<ReplayRun> kidnapped;  ///< with all kidnaps one after another
   std::vector<KidnapRecord> kidnaps;
-  KidnapOutcome whole_kidnapped;              ///< wrong poses anywhere in the kidnapped run
-  std::optional<MeshDistance> mesh_distance;  ///< of the kidnapped run's surface from the undisturbed one's
+  KidnapOutcome whole_kidnapped;            ///< wrong poses anywhere in the kidnapped run
+  std::vector<SurfaceComparison> surfaces;  ///< of the kidnapped and the undisturbed run; empty without kidnaps in one run
   double peak_mb = 0.0;
   bool complete = true;  ///< false: interrupted
 

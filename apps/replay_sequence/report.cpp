@@ -53,11 +53,17 @@ std::string kidnap_table(const ReplayResult& result) {
                       rows);
 }
 
-std::string mesh_lines(const MeshDistance& distance) {
-  const double num_vertices = distance.num_vertices;
-  return "Surface of the kidnapped run against the undisturbed one's: " + format_number(100.0 * distance.num_within / num_vertices, 1) +
-         " % of vertices within a voxel, " + format_number(100.0 * distance.num_near / num_vertices, 1) + " % within 5 cm; median " +
-         format_number(1000.0 * distance.median_m, 1) + " mm, p95 " + format_number(1000.0 * distance.p95_m, 1) + " mm\n";
+std::string surface_table(const std::vector<SurfaceComparison>& surfaces) {
+  const auto percent = [](int part, int whole) { return format_number(100.0 * part / whole, 1); };
+  std::vector<std::vector<std::string>> rows;
+  for (const SurfaceComparison& surface : surfaces) {
+    const MeshDistance& accuracy = surface.accuracy;
+    const MeshDistance& completeness = surface.completeness;
+    rows.push_back({surface.run, surface.reference, percent(accuracy.num_within, accuracy.num_vertices),
+                    percent(accuracy.num_near, accuracy.num_vertices), format_number(1000.0 * accuracy.median_m, 1),
+                    format_number(1000.0 * accuracy.p95_m, 1), percent(completeness.num_near, completeness.num_vertices)});
+  }
+  return format_table({"surface", "against", "% within a voxel", "% within 5 cm", "median mm", "p95 mm", "% complete"}, rows);
 }
 
 }  // namespace
@@ -111,7 +117,7 @@ std::string text_report(const ReplayOptions& options, const ReplayResult& result
   if (!result.kidnaps.empty()) {
     text += "\n" + kidnap_table(result) + "\nRight: within 10 cm and 10 deg of the undisturbed run's pose of the same frame.\n";
   }
-  if (result.mesh_distance.has_value()) text += mesh_lines(*result.mesh_distance);
+  if (!result.surfaces.empty()) text += "\n" + surface_table(result.surfaces);
   return text + "Peak memory: " + format_number(result.peak_mb, 0) + " MB\n";
 }
 

@@ -37,7 +37,7 @@ class ReplayTest(app_support.AppTest):
 class UndisturbedTest(ReplayTest):
     def test_tracks_and_writes_what_was_asked_for(self):
         result = self.replay("--save-trajectory", "trajectory.txt", "--save-mesh", "mesh.ply")
-        self.assertEqual((result["format"], result["format_version"], result["complete"]), ("foothold-replay", 1, True))
+        self.assertEqual((result["format"], result["format_version"], result["complete"]), ("foothold-replay", 2, True))
         run = result["undisturbed"]
         self.assertEqual((run["frames"], run["lost"], run["ate_frames"]), (40, 0, 40))
         self.assertLess(run["ate"]["rmse_m"], 0.02)
@@ -81,8 +81,14 @@ class KidnapTest(ReplayTest):
         self.assertGreaterEqual(result["kidnapped"]["lost"], 5)
         self.assertEqual(result["kidnaps"][0]["covered"], 5)
         self.assertGreater(result["kidnaps"][0]["mapped"], 0.5)
-        surface = result["surface_from_undisturbed"]
-        self.assertGreater(surface["within_a_voxel"], 0.95 * surface["vertices"])
+        surfaces = {(s["run"], s["reference"]): s for s in result["surfaces"]}
+        self.assertEqual(len(surfaces), 3)
+        accuracy = surfaces["kidnapped", "undisturbed"]["accuracy"]
+        self.assertGreater(accuracy["within_a_voxel"], 0.95 * accuracy["vertices"])
+        for run in ("kidnapped", "undisturbed"):
+            surface = surfaces[run, "true poses"]
+            self.assertGreater(surface["accuracy"]["within_a_voxel"], 0.95 * surface["accuracy"]["vertices"])
+            self.assertGreater(surface["completeness"]["near"], 0.95 * surface["completeness"]["vertices"])
         pictures = sorted((self.folder / "video").iterdir())
         self.assertEqual([p.name for p in pictures], [f"view-{i:06d}.png" for i in range(0, 80, 20)])
         for picture in pictures:
