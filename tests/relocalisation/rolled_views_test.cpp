@@ -26,10 +26,10 @@ std::vector<RgbdFrame> rolled_views(int roll_deg) {
 }
 
 /// Has learnt the office upright, and tries so many rolls.
-ForestRelocaliser trained(int num_rolls, int num_threads = 1) {
+ForestRelocaliser trained(int num_rolls, const Context& context = test::context_of(1)) {
   ForestRelocaliserSettings settings = test::small_settings();
   settings.num_rolls = num_rolls;
-  ForestRelocaliser relocaliser(test::context_of(num_threads), test::small_forest(), settings);
+  ForestRelocaliser relocaliser(context, test::small_forest(), settings);
   std::istringstream scene(test::saved(test::trained()));
   relocaliser.load(scene);  // a scene is the same whatever rolls are tried in it
   return relocaliser;
@@ -63,8 +63,8 @@ TEST_CASE("rolled views: found whatever the roll, if rolls are tried; seldom oth
 TEST_CASE("rolled views: the same answers on 1, 2 and 4 threads") {
   const std::vector<RgbdFrame> views = rolled_views(90);
   for (const int num_threads : {2, 4}) {
-    ForestRelocaliser one = trained(8, 1);
-    ForestRelocaliser several = trained(8, num_threads);
+    ForestRelocaliser one = trained(8);
+    ForestRelocaliser several = trained(8, test::context_of(num_threads));
     for (const std::size_t i : {0U, 4U, 8U}) REQUIRE(bit_equal(several.relocalise(views[i].view()), one.relocalise(views[i].view())));
   }
 }
@@ -95,6 +95,29 @@ TEST_CASE("rolled views: more rolls never answer with less confidence") {
     REQUIRE(confidence(two) >= upright_only);
     REQUIRE(confidence(eight) >= upright_only);
   }
+}
+
+/// The number of rolls that are tried to find the camera of a view among eight.
+int num_tried(const Frame& frame) {
+  Trace trace;
+  ContextOptions options;
+  options.trace = &trace;
+  trained(8, Context(options)).relocalise(frame);
+  return static_cast<int>(trace.stages().at("relocalise/ransac").size());
+}
+
+TEST_CASE("rolled views: the right roll is tried early, and one that cannot be right is not tried") {
+  for (const int roll_deg : {-90, 180}) {
+    for (const RgbdFrame& view : rolled_views(roll_deg)) {
+      INFO("rolled by " << roll_deg << " deg, frame " << view.index);
+      CHECK(num_tried(view.view()) <= 3);
+    }
+  }
+  RgbdFrame nowhere = test::office()[1];
+  for (int v = 0; v < nowhere.depth.height(); ++v) {
+    for (int u = 0; u < nowhere.depth.width(); ++u) nowhere.depth(u, v) = 9.0F;  // a wall that is further away than any in the office
+  }
+  CHECK(num_tried(nowhere.view()) == 1);
 }
 
 TEST_CASE("rolled views: explain() tells of the roll that answered") {

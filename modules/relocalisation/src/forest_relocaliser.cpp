@@ -72,6 +72,8 @@ struct ForestRelocaliser::State {
 
   /// @param explanation  Output: what the answer was made from; nullptr for none.
   std::vector<PoseEstimate> answer(const Frame& frame, Explanation* explanation);
+  /// Rolls but the upright one from which an answer is to be expected, the most promising first.
+  std::vector<int> promising_rolls(const PoseQuery& query);
   /// Estimates as seen by a camera with one of the forest's rolls.
   std::vector<PoseEstimate> attempt(const PoseQuery& query, int roll);
   bool is_sure(const std::vector<PoseEstimate>& estimates) const {
@@ -99,13 +101,32 @@ std::vector<PoseEstimate> ForestRelocaliser::State::answer(const Frame& frame, E
   const PoseQuery query{frame, image, reservoirs.view(), modes.view()};
   estimator.prepare(context, query);
   std::vector<PoseEstimate> best;
-  for (int roll = 0; roll < device_forest.num_rolls() && !is_sure(best); ++roll) {
+  const auto try_roll = [&](int roll) {
     std::vector<PoseEstimate> estimates = attempt(query, roll);
-    if (estimates.empty() || (!best.empty() && estimates.front().confidence <= best.front().confidence)) continue;
+    if (estimates.empty() || (!best.empty() && estimates.front().confidence <= best.front().confidence)) return;
     best = std::move(estimates);
     if (explanation != nullptr) *explanation = foothold::explain(estimator, best, reservoirs.origin_world());
+  };
+  try_roll(0);
+  if (is_sure(best)) return best;
+  for (const int roll : promising_rolls(query)) {
+    try_roll(roll);
+    if (is_sure(best)) break;
   }
   return best;
+}
+
+std::vector<int> ForestRelocaliser::State::promising_rolls(const PoseQuery& query) {
+  std::vector<ForestView> forests;
+  for (int roll = 1; roll < device_forest.num_rolls(); ++roll) forests.push_back(device_forest.view(roll));
+  const std::vector<std::uint32_t> counts = estimator.count_hypotheses(context, query, forests);
+  const auto count_of = [&](int roll) { return counts[static_cast<std::size_t>(roll) - 1]; };
+  std::vector<int> rolls;
+  for (int roll = 1; roll < device_forest.num_rolls(); ++roll) {
+    if (count_of(roll) > 0) rolls.push_back(roll);
+  }
+  std::stable_sort(rolls.begin(), rolls.end(), [&](int a, int b) { return count_of(a) > count_of(b); });
+  return rolls;
 }
 
 std::vector<PoseEstimate> ForestRelocaliser::State::attempt(const PoseQuery& query, int roll) {

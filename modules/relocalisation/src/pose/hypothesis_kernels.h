@@ -11,6 +11,9 @@
 
 namespace foothold {
 
+/// Energies from here on are those of failed draws.
+inline constexpr float kFailedEnergy = 1e30F;
+
 /// Teams here share nothing.
 struct NoScratch {};
 
@@ -103,6 +106,21 @@ struct DrawHypothesis {
       if (random.below(++num_rigid) == 0) chosen = &mode;
     }
     return chosen;
+  }
+};
+
+/// Counts the hypotheses that did not fail.
+template <class Executor>
+struct CountDrawn {
+  const float* energies;
+  int num_hypotheses;
+  std::uint32_t* count;
+
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t) const {
+    float sum = 0.0F;
+    for (int i = team.lane(); i < num_hypotheses; i += team.size()) sum += energies[i] < kFailedEnergy ? 1.0F : 0.0F;
+    sum = team.sum(sum);
+    if (team.lane() == 0) *count = static_cast<std::uint32_t>(sum);
   }
 };
 

@@ -9,6 +9,15 @@
 
 namespace foothold {
 
+namespace {
+
+/// (T) In seven rendered rooms rolled by 30 to 90 deg and RedKitchen's halves, leaving out rolls with which none can be drawn loses no
+/// answer; a quarter as many hypotheses lose 1 %.
+constexpr int kNumScreeningPixels = 500;
+constexpr int kNumScreeningHypotheses = 256;
+
+}  // namespace
+
 #ifdef FOOTHOLD_HAS_CUDA
 extern template struct PoseAlgorithms<CudaExecutor>;
 #endif
@@ -24,6 +33,7 @@ PoseEstimator::Buffers::Buffers(MemoryKind memory)
       modes(memory),
       hypotheses(memory),
       energies(memory),
+      counts(memory),
       order(memory),
       sort_buffer(memory),
       nearest(memory),
@@ -65,12 +75,37 @@ void PoseEstimator::prepare(const Context& context, const PoseQuery& query) {
   dispatch(context, [&](auto on) { PoseAlgorithms<typename decltype(on)::Executor>::prepare(context, query, settings_, buffers_); });
 }
 
-std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const PoseQuery& query, const ForestView& forest) {
+void PoseEstimator::make_room_for(const PoseQuery& query, const ForestView& forest) {
   const auto pool_size = static_cast<std::size_t>(settings_.pool_size);
   const auto num_trees = static_cast<std::size_t>(forest.num_trees);
   buffers_.leaves.resize(pool_size * num_trees);
   buffers_.offsets.resize(buffers_.surfaces.size() * num_trees);
   buffers_.modes.resize(pool_size * num_trees * static_cast<std::size_t>(query.leaf_modes.modes.max_blocks * kModeBlockSize));
+}
+
+std::vector<std::uint32_t> PoseEstimator::count_hypotheses(const Context& context, const PoseQuery& query,
+                                                           const std::vector<ForestView>& forests) {
+  if (forests.empty()) return {};
+  const ScopedStage stage(context, "relocalise/screen");
+  PoseEstimatorSettings few = settings_;
+  few.pool_size = std::min(kNumScreeningPixels, settings_.pool_size);
+  few.num_hypotheses = std::min(kNumScreeningHypotheses, settings_.num_hypotheses);
+  buffers_.counts.resize(forests.size());
+  dispatch(context, [&](auto on) {
+    using Algorithms = PoseAlgorithms<typename decltype(on)::Executor>;
+    for (std::size_t i = 0; i < forests.size(); ++i) {
+      make_room_for(query, forests[i]);
+      const PoseProblem problem{context, query, forests[i], few};
+      Algorithms::fill_pool(problem, buffers_);
+      Algorithms::draw_hypotheses(problem, buffers_);
+      Algorithms::count_drawn(problem, buffers_, i);
+    }
+  });
+  return buffers_.counts.to_host(context);
+}
+
+std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const PoseQuery& query, const ForestView& forest) {
+  make_room_for(query, forest);
   const PoseProblem problem{context, query, forest, settings_};
   dispatch(context, [&](auto on) {
     using Algorithms = PoseAlgorithms<typename decltype(on)::Executor>;

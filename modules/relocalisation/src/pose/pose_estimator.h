@@ -109,6 +109,12 @@ class PoseEstimator {
   /// Chooses the pixels and the remembered points that every estimate of this query uses, however the camera is rolled.
   void prepare(const Context& context, const PoseQuery& query);
 
+  /// Draws a few hypotheses on a few pixels with each forest, and counts those that pass the geometric checks: a cheap sign of which
+  /// estimates are worth their cost. From one that counts none, nothing is to be expected.
+  /// @param forests  turned to as many rolls of the camera.
+  /// @pre prepare() was called last with the same query.
+  std::vector<std::uint32_t> count_hypotheses(const Context& context, const PoseQuery& query, const std::vector<ForestView>& forests);
+
   /// @param forest  turned to a roll of the camera.
   /// @return        Candidates, best first. Empty if no triple passed the geometric checks: a normal outcome, not an error.
   /// @pre prepare() was called last with the same query.
@@ -127,7 +133,8 @@ class PoseEstimator {
     Array<Mode> modes;
     Array<SE3> hypotheses;
     Array<float> energies;
-    Array<std::uint64_t> order;  ///< sort keys: energy above, hypothesis below
+    Array<std::uint32_t> counts;  ///< of count_hypotheses()
+    Array<std::uint64_t> order;   ///< sort keys: energy above, hypothesis below
     Array<std::uint64_t> sort_buffer;
     Array<std::uint16_t> nearest;  ///< hypotheses x samples: position of the nearest mode
     Array<SurfaceSample> surfaces;
@@ -143,6 +150,8 @@ class PoseEstimator {
   const Buffers& buffers() const { return buffers_; }
 
  private:
+  void make_room_for(const PoseQuery& query, const ForestView& forest);
+
   PoseEstimatorSettings settings_;
   Buffers buffers_;
 };

@@ -28,6 +28,7 @@ struct PoseAlgorithms {
                       PoseEstimator::Buffers& buffers);
   static void fill_pool(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
   static void draw_hypotheses(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
+  static void count_drawn(const PoseProblem& problem, PoseEstimator::Buffers& buffers, std::size_t roll);
   static void preempt(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
   static void rank(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
   static void finish(const PoseProblem& problem, PoseEstimator::Buffers& buffers);
@@ -118,11 +119,15 @@ void PoseAlgorithms<Executor>::fill_pool(const PoseProblem& problem, PoseEstimat
   const PoseQuery& query = problem.query;
   const auto pool_size = static_cast<std::size_t>(problem.settings.pool_size);
   const auto num_leaves = static_cast<std::uint32_t>(problem.forest.num_leaves);
-  find_leaves(problem.context, query.image, problem.forest, Span<const SampledPixel>(buffers.sampled), Span<std::uint32_t>(buffers.leaves));
+  find_leaves(problem.context, query.image, problem.forest, Span<const SampledPixel>(buffers.sampled.data(), pool_size),
+              Span<std::uint32_t>(buffers.leaves.data(), pool_size * static_cast<std::size_t>(problem.forest.num_trees)));
   executor.for_each(pool_size, CountModes{query.leaf_modes, problem.forest.num_trees, num_leaves, pool_size, buffers.leaves.data(),
                                           buffers.mode_counts.data(), buffers.has_modes.data()});
-  executor.exclusive_scan(Span<const std::uint32_t>(buffers.mode_counts), Span<std::uint32_t>(buffers.first_modes));
-  executor.exclusive_scan(Span<const std::uint32_t>(buffers.has_modes), Span<std::uint32_t>(buffers.slots));
+  const auto scan = [&](const Array<std::uint32_t>& counts, Array<std::uint32_t>& sums) {
+    executor.exclusive_scan(Span<const std::uint32_t>(counts.data(), pool_size), Span<std::uint32_t>(sums.data(), pool_size + 1));
+  };
+  scan(buffers.mode_counts, buffers.first_modes);
+  scan(buffers.has_modes, buffers.slots);
   executor.for_each(pool_size, GatherPixel{query.frame.calibration.depth, query.image.view(), query.image.downscale(), query.leaf_modes,
                                            problem.forest.num_trees, num_leaves, pool_size, buffers.sampled.data(), buffers.leaves.data(),
                                            buffers.mode_counts.data(), buffers.first_modes.data(), buffers.slots.data(),
@@ -136,6 +141,13 @@ void PoseAlgorithms<Executor>::draw_hypotheses(const PoseProblem& problem, PoseE
   set.executor().template for_each_team<NoScratch>(
       num_hypotheses, DrawHypothesis<Executor>{set.pool(), problem.settings, buffers.hypotheses.data(), buffers.energies.data()});
   set.sort(num_hypotheses, true);
+}
+
+template <class Executor>
+void PoseAlgorithms<Executor>::count_drawn(const PoseProblem& problem, PoseEstimator::Buffers& buffers, std::size_t roll) {
+  Executor(problem.context)
+      .template for_each_team<NoScratch>(
+          1, CountDrawn<Executor>{buffers.energies.data(), problem.settings.num_hypotheses, buffers.counts.data() + roll});
 }
 
 template <class Executor>

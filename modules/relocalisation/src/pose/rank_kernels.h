@@ -110,8 +110,8 @@ struct MakeEvidenceKey {
   FOOTHOLD_HD void operator()(std::size_t slot) const {
     const std::uint32_t hypothesis = hypothesis_of(order[slot]);
     const SceneEvidence& found = evidence[hypothesis];
-    const bool failed = energies[hypothesis] >= 1e30F;
-    const float disbelief = failed ? 1e30F : 1.0F + found.contradicted_fraction() - found.alike_fraction();  // positive
+    const bool failed = energies[hypothesis] >= kFailedEnergy;
+    const float disbelief = failed ? kFailedEnergy : 1.0F + found.contradicted_fraction() - found.alike_fraction();  // positive
     std::uint32_t bits = 0;
     memcpy(&bits, &disbelief, sizeof(bits));
     order[slot] = (static_cast<std::uint64_t>(bits) << 32U) | hypothesis;

@@ -78,13 +78,11 @@ struct ScoreGroup {
     if (team.lane() != 0) return;
     for (int w = 0; w < kWidth && first_slot + static_cast<std::size_t>(w) < num_active; ++w) {
       float& energy = energies[poses.index[w]];
-      energy = (restart && energy < kFailed ? 0.0F : energy) + sum[w];
+      energy = (restart && energy < kFailedEnergy ? 0.0F : energy) + sum[w];
     }
   }
 
  private:
-  static constexpr float kFailed = 1e30F;
-
   FOOTHOLD_HD FOOTHOLD_INLINE void add_sample(const PoseGroup<kWidth>& poses, const PooledPixel& pixel, float* sum) const {
     float x[kWidth];
     float y[kWidth];
@@ -157,7 +155,7 @@ struct EvaluateCandidates {
       candidate.surface_fit = 1.0F - misfits[first_slot + static_cast<std::size_t>(w)];
       candidate.contradicted_fraction = evidence[poses.index[w]].contradicted_fraction();
       candidate.alike_fraction = evidence[poses.index[w]].alike_fraction();
-      candidate.valid = energies[poses.index[w]] < 1e30F ? 1 : 0;
+      candidate.valid = energies[poses.index[w]] < kFailedEnergy ? 1 : 0;
     }
   }
 

@@ -17,8 +17,8 @@ namespace foothold {
 /// Adapts a forest to a scene frame by frame (Sec. 2.2.2) and estimates lost cameras from its leaves (Sec. 2.2.3).
 ///
 /// Beyond the paper, a camera that is not surely found is looked for again as one that is rolled about its optical axis, with the offsets
-/// of features turned as far (num_rolls, sure_confidence). So what is found upright is found at any roll, and a frame from nowhere costs
-/// up to num_rolls times as much.
+/// of features turned as far (num_rolls, sure_confidence): the rolls with which most hypotheses can be drawn first, those with which none
+/// can not at all. So what is found upright is found at any roll, and a frame from nowhere costs up to num_rolls times as much.
 ///
 /// Determinism: the scene is a function of forest, settings and training frames; an answer is a function of the scene and the frame.
 /// Neither depends on threads or device, but for rounding in the pose.
