@@ -9,6 +9,7 @@
 #include <ctime>
 #include <exception>
 
+#include "foothold/api/register_colour.h"
 #include "foothold/base/error.h"
 #include "foothold/fusion/surface_mesh.h"
 #include "foothold/io/atomic_file.h"
@@ -100,6 +101,7 @@ bool LiveRun::limit_is_reached() {
 void LiveRun::take(RgbdFrame& frame) {
   const bool to_be_recorded = recording_ != nullptr && reader_ == nullptr;
   if (to_be_recorded) round_depth_as_recorded(frame.depth);
+  if (session_ != nullptr) register_colour(frame);  // as a replay would
   const bool recorded = to_be_recorded && recording_->add(frame);
   check_recording();
   if (to_be_recorded && !recorded && !recording_failed_) return;  // the disk is too slow: dropped, and counted

@@ -68,7 +68,9 @@ int render(const Options& options) {
   context_options.num_threads = options.num_threads;
   context_options.log = log_to_stderr();
   const Context context(context_options);
-  const std::shared_ptr<const Sequence> sequence = open_sequence(options.sequence, context);
+  SequenceOptions sequence_options;
+  sequence_options.register_colour = options.raw;  // a folder is a copy; raw files are used as they are
+  const std::shared_ptr<const Sequence> sequence = open_sequence(options.sequence, context, sequence_options);
   const std::vector<int> indices = frame_indices(*sequence, options.stride);
   const int num_frames = options.raw ? write_raw(sequence, indices, options.out) : write_folder(sequence, indices, options.out);
   std::cout << "wrote " << num_frames << " of " << indices.size() << " frames of " << sequence->name() << " to " << options.out << "\n";

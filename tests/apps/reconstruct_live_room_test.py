@@ -5,6 +5,7 @@ window; judged by where the camera truly was."""
 
 import json
 import pathlib
+import shutil
 import struct
 import subprocess
 import sys
@@ -89,6 +90,19 @@ class HeadlessTest(RoomTest):
         replay = pathlib.Path(self.app).parent / "replay_sequence"
         subprocess.run([replay, "take", "--save-trajectory", "replay.txt"], cwd=self.folder, check=True, capture_output=True)
         self.assertEqual((self.folder / "replay.txt").read_text(), (self.folder / "live.txt").read_text())
+
+    def test_a_camera_without_registration_replays_alike(self):
+        """Its colour is registered before it is recorded and reconstructed."""
+        shutil.copytree(self.room.folder, self.folder / "room")
+        width, height = SIZE
+        (self.folder / "room" / "colour-intrinsics.txt").write_text(f"{0.9 * width} 0 {width / 2}\n0 {0.9 * width} {height / 2}\n0 0 1\n")
+        self.plug_in(self.folder / "room")
+        result = self.run_app(*MODE, "--headless", "--record", "take", "--frames", 12, "--save-trajectory", "live.txt")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("offers no registration", result.stderr)
+        matrices = [(self.folder / "take" / f"{camera}-intrinsics.txt").read_text() for camera in ("camera", "colour")]
+        self.assertEqual(*matrices)
+        self.check_replay()
 
     def check_another_day(self):
         """The saved scene, the camera somewhere else in it: found in the first frames, in the world of the first day."""

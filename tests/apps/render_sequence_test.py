@@ -2,6 +2,8 @@
 # Copyright (c) 2026 The Foothold authors
 """render_sequence from the outside: folders and raw files, and what it refuses."""
 
+import struct
+
 import app_support
 
 ROOM = "synthetic:kitchen?frames=3&width=80&height=60"
@@ -23,6 +25,19 @@ class RenderTest(app_support.AppTest):
         app_support.write_seven_scenes(self.folder / "recording", 4)
         self.check_success("--sequence", "recording", "--out", "copy.fhraw", "--raw", "--stride", 2)
         self.assertEqual((self.folder / "copy.fhraw").stat().st_size, 104 + 2 * (72 + 80 * 60 * 5))
+
+    def test_a_folder_is_a_copy_and_a_raw_file_is_registered(self):
+        """A raw file is read by programs that do not register; intrinsics of depth and of colour stand at bytes 24 and 40 of its header."""
+        app_support.write_seven_scenes(self.folder / "recording", 2)
+        (self.folder / "recording" / "colour-intrinsics.txt").write_text("66 0 41\n0 66 31\n0 0 1\n")
+        self.check_success("--sequence", "recording", "--out", "copy")
+        self.check_success("--sequence", "copy", "--out", "raw", "--raw")
+        self.check_success("--sequence", "recording", "--out", "direct", "--raw")
+        self.assertEqual((self.folder / "copy" / "colour-intrinsics.txt").read_text().split()[0], "66")
+        data = (self.folder / "raw").read_bytes()
+        self.assertEqual(struct.unpack("<4f", data[24:40]), struct.unpack("<4f", data[40:56]))
+        first_frame = slice(104, 104 + 72 + 80 * 60 * 5)
+        self.assertEqual(data[first_frame], (self.folder / "direct").read_bytes()[first_frame])
 
     def test_refusals(self):
         self.check_refused("--sequence", ROOM, "--out", "nowhere/kitchen.fhraw", "--raw", says="nowhere/kitchen.fhraw")

@@ -7,6 +7,12 @@ namespace {
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
 }  // namespace
 
+bool same_calibration(const RgbdCalibration& a, const RgbdCalibration& b) {
+  const auto same = [](const Intrinsics& p, const Intrinsics& q) { return p.fx == q.fx && p.fy == q.fy && p.cx == q.cx && p.cy == q.cy; };
+  return same(a.depth, b.depth) && same(a.colour, b.colour) && a.depth_from_colour.rotation == b.depth_from_colour.rotation &&
+         a.depth_from_colour.translation == b.depth_from_colour.translation;
+}
+
 std::string describe_frame_error(const Frame& frame) {
   if (frame.depth.empty()) return "the depth image is empty";
   if (frame.colour.empty()) return "the colour image is empty";

@@ -62,13 +62,6 @@ void pack(const Intrinsics& intrinsics, float* values) {
 
 Intrinsics unpack_intrinsics(const float* values) { return {values[0], values[1], values[2], values[3]}; }
 
-bool is_same(const Intrinsics& a, const Intrinsics& b) { return a.fx == b.fx && a.fy == b.fy && a.cx == b.cx && a.cy == b.cy; }
-
-bool is_same(const RgbdCalibration& a, const RgbdCalibration& b) {
-  return is_same(a.depth, b.depth) && is_same(a.colour, b.colour) && a.depth_from_colour.rotation == b.depth_from_colour.rotation &&
-         a.depth_from_colour.translation == b.depth_from_colour.translation;
-}
-
 std::uint64_t bytes_per_frame(const Header& header) {
   const auto num_pixels = static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height);
   return sizeof(FrameHeader) + num_pixels * (sizeof(std::uint16_t) + sizeof(Rgb8));
@@ -128,7 +121,7 @@ void RawSequenceWriter::write(const RgbdFrame& frame) {
     const Header unfinished{};
     stream_.write(reinterpret_cast<const char*>(&unfinished), sizeof(unfinished));
   }
-  FOOTHOLD_EXPECTS(frame.depth.width() == width_ && frame.depth.height() == height_ && is_same(frame.calibration, calibration_));
+  FOOTHOLD_EXPECTS(frame.depth.width() == width_ && frame.depth.height() == height_ && same_calibration(frame.calibration, calibration_));
   FrameHeader header{};
   header.index = frame.index;
   header.timestamp_s = frame.timestamp_s;

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "foothold/api/register_colour.h"
 #include "foothold/io/image_file.h"
-#include "register_colour.h"
 #include "text_file.h"
 
 namespace foothold::io {
@@ -31,17 +31,7 @@ void read_frame_images(const std::filesystem::path& colour_file, const std::file
     throw_file_error(colour_file, size_text(frame.colour.width(), frame.colour.height()) + " pixels",
                      size_text(frame.depth.width(), frame.depth.height()) + " as in " + depth_file.filename().string());
   }
-  if (options.register_colour && needs_registration(frame.calibration)) register_colour(frame);
-}
-
-bool same_calibration(const RgbdCalibration& a, const RgbdCalibration& b) {
-  const auto same = [](const Intrinsics& p, const Intrinsics& q) { return p.fx == q.fx && p.fy == q.fy && p.cx == q.cx && p.cy == q.cy; };
-  return same(a.depth, b.depth) && same(a.colour, b.colour) && a.depth_from_colour.rotation == b.depth_from_colour.rotation &&
-         a.depth_from_colour.translation == b.depth_from_colour.translation;
-}
-
-bool needs_registration(const RgbdCalibration& calibration) {
-  return !same_calibration(calibration, {calibration.depth, calibration.depth, SE3{}});
+  if (options.register_colour) register_colour(frame);
 }
 
 std::string recording_name(const std::filesystem::path& folder) {

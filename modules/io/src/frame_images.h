@@ -17,11 +17,6 @@ namespace foothold::io {
 void read_frame_images(const std::filesystem::path& colour_file, const std::filesystem::path& depth_file, float depth_units_per_m,
                        const SequenceOptions& options, RgbdFrame& frame);
 
-bool same_calibration(const RgbdCalibration& a, const RgbdCalibration& b);
-
-/// True unless colour and depth share one camera already.
-bool needs_registration(const RgbdCalibration& calibration);
-
 /// What to call the recording in a folder: the folder's own name, preceded by its parent's for the "seq-01" of 7-Scenes.
 std::string recording_name(const std::filesystem::path& folder);
 

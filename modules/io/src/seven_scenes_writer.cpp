@@ -77,7 +77,7 @@ void SevenScenesWriter::write(const RgbdFrame& frame) {
   }
   FOOTHOLD_EXPECTS(frame.depth.width() == width_ && frame.depth.height() == height_);
   FOOTHOLD_EXPECTS(frame.world_from_camera.has_value() == has_poses_);
-  FOOTHOLD_EXPECTS(io::same_calibration(frame.calibration, calibration_));
+  FOOTHOLD_EXPECTS(same_calibration(frame.calibration, calibration_));
 
   std::array<char, 32> stem{};
   std::snprintf(stem.data(), stem.size(), "frame-%06d", num_frames());

@@ -39,7 +39,9 @@ std::shared_ptr<const Sequence> open_camera_sequence(const std::string& specific
   if (specification.compare(0, pattern.size(), pattern) == 0)
     return std::make_shared<PatternSequence>(specification.substr(pattern.size()));
 #ifdef FOOTHOLD_VIRTUAL_CAMERA_IO
-  return open_sequence(specification, Context());
+  SequenceOptions as_recorded;
+  as_recorded.register_colour = false;  // a camera's sensors know nothing of each other
+  return open_sequence(specification, Context(), as_recorded);
 #else
   throw InvalidSettings("FOOTHOLD_VIRTUAL_CAMERA: got '" + specification +
                         "', but this build without module io knows only pattern:WIDTHxHEIGHT");

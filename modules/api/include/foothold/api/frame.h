@@ -21,6 +21,9 @@ struct RgbdCalibration {
   SE3 depth_from_colour;
 };
 
+/// True if two calibrations are equal in every number.
+bool same_calibration(const RgbdCalibration& a, const RgbdCalibration& b);
+
 /// A non-owning RGB-D frame. Depth is z in metres, dense rows; zero, negative and NaN all mean "no measurement" (InfiniTAM writes -1).
 /// Depth and colour live in the same kind of memory and have the same size.
 struct Frame {

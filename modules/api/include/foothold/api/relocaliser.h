@@ -21,6 +21,9 @@ struct PoseEstimate {
 
 /// Finds the pose of a camera that has lost track, in a scene learnt from the frames it saw before.
 ///
+/// Frames are best with colour registered to depth (register_colour()): implementations may take the colour of a depth pixel from the same
+/// pixel of the colour image, whatever the calibration says.
+///
 /// One object serves one thread of control. Frames may live in host or CUDA memory, as the implementation's context demands.
 class Relocaliser {
  public:

@@ -89,6 +89,9 @@ void set_world_from_camera(TrackingState& state, const SE3& world_from_camera) {
 
 /// Views the images of a host's view. They must stay alive, and unchanged, while the frame is used.
 ///
+/// Colour comes as the host has it: hosts that calibrate the two cameras instead of registering their images hand over unregistered colour,
+/// with which the camera is found less surely. register_colour() warps a copy on the host, for training and relocalisation alike.
+///
 /// @param device  The host's own name for the memory that its images are up to date in, as GetData() takes it.
 /// @param memory  The same memory in Foothold's terms.
 template <class View, class MemoryDevice>

@@ -15,8 +15,9 @@ namespace foothold {
 
 /// How a recording is read.
 struct SequenceOptions {
-  /// Warps colour into the depth camera's view where the two are not registered; the calibration then says so.
-  bool register_colour = false;
+  /// Warps colour into the depth camera's view where the two are not registered, as register_colour() does; the calibration then says so.
+  /// Relocalisers want it so. False for the images as they were recorded.
+  bool register_colour = true;
   /// Leaves out the frames of a TUM recording for which the ground truth is silent, and logs how many. Otherwise they come without a pose.
   bool only_with_pose = true;
 };

@@ -20,6 +20,9 @@ namespace foothold {
 /// of features turned as far (num_rolls, sure_confidence): the rolls with which most hypotheses can be drawn first, those with which none
 /// can not at all. So what is found upright is found at any roll, and a frame from nowhere costs up to num_rolls times as much.
 ///
+/// Colour is looked up at the pixel of the depth. Where a camera's colour is not registered to its depth, register_colour() warps it there;
+/// it is still found without, with poorer confidence (docs/results.md).
+///
 /// Determinism: the scene is a function of forest, settings and training frames; an answer is a function of the scene and the frame.
 /// Neither depends on threads or device, but for rounding in the pose.
 class ForestRelocaliser final : public Relocaliser, public Persistent {
