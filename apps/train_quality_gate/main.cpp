@@ -25,7 +25,7 @@ namespace {
 /// What the gate says is followed by other checks, so it may err; what acceptance says is final.
 struct GateSettings {
   QualityExampleSettings examples;
-  ClassifierTrainingSettings tracking = {1.0F, 0.1F, 0.02F, 20000};
+  ClassifierTrainingSettings tracking = {1.0F, 0.1F, 0.002F, 20000};
   ClassifierTrainingSettings acceptance = {1.0F, 0.01F, 0.002F, 20000};
   FusionSettings fusion;
 

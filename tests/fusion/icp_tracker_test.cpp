@@ -72,6 +72,61 @@ TEST_CASE("IcpTracker: survives a quarter of the image being covered") {
   REQUIRE(result.measures.inlier_fraction < 0.8F);
 }
 
+/// Leaves a rendering's first columns only.
+void unmap_from_column(SurfaceMap& map, int first) {
+  for (int v = 0; v < map.camera.height; ++v) {
+    for (int u = first; u < map.camera.width; ++u) map.pixels[static_cast<std::size_t>(v * map.camera.width + u)] = SurfacePixel{};
+  }
+}
+
+TEST_CASE("IcpTracker: where the map ends, nothing is an outlier; the determinants tell how much was left to go by") {
+  const Scene scene;
+  const Context context = make_context(1);
+  Model model(context, scene, 0.5F);
+  IcpTracker tracker(context, small_image_settings());
+  Random random = test::test_random();
+  const SE3 truth = model.map.camera.world_from_camera * test::random_motion(random, 0.02F, 0.02F);
+  const RgbdFrame frame = test::render(scene, truth);
+  tracker.set_frame(frame.view());
+  const TrackingResult full = tracker.track(model.map, model.map.camera.world_from_camera);
+  unmap_from_column(model.map, 160);  // half of the image
+  const TrackingResult half = tracker.track(model.map, model.map.camera.world_from_camera);
+  REQUIRE(half.measures.well_posed);
+  REQUIRE(translation_distance_m(half.world_from_camera, truth) < 0.002F);
+  REQUIRE(full.num_valid == 320 * 240);
+  REQUIRE(half.num_valid == full.num_valid);
+  REQUIRE(full.num_mapped < full.num_valid);  // what moved out of the rendering, and edges
+  REQUIRE(static_cast<float>(half.num_mapped) == Approx(0.5F * static_cast<float>(full.num_mapped)).epsilon(0.1));
+  REQUIRE(half.num_inliers <= half.num_mapped);
+  REQUIRE(half.measures.inlier_fraction == Approx(full.measures.inlier_fraction).margin(0.05));
+  REQUIRE(half.measures.residual_m == Approx(full.measures.residual_m).margin(0.01));
+  // Half as many pixels give about half of the Hessian: 6 log 2 of its determinant, and what the other half alone saw.
+  REQUIRE(half.measures.log_det_valid < full.measures.log_det_valid - 3.0F);
+}
+
+TEST_CASE("IcpTracker: a strip that agrees is no evidence") {
+  const Scene scene;
+  const Context context = make_context(1);
+  Model model(context, scene, 0.5F);
+  IcpTracker tracker(context, small_image_settings());
+  const RgbdFrame frame = test::render(scene, model.map.camera.world_from_camera);
+  tracker.set_frame(frame.view());
+  float last_residual_m = tracker.track(model.map, model.map.camera.world_from_camera).measures.residual_m;
+  for (const int columns : {32, 16, 8, 4}) {  // a tenth of the image and less
+    unmap_from_column(model.map, columns);
+    const TrackingResult result = tracker.track(model.map, model.map.camera.world_from_camera);
+    REQUIRE(result.measures.inlier_fraction < 5.0F * static_cast<float>(columns) / 320.0F + 0.01F);
+    REQUIRE(result.measures.residual_m > last_residual_m);
+    last_residual_m = result.measures.residual_m;
+  }
+  unmap_from_column(model.map, 0);
+  const TrackingResult nothing = tracker.track(model.map, model.map.camera.world_from_camera);
+  REQUIRE_FALSE(nothing.measures.well_posed);
+  REQUIRE(nothing.num_mapped == 0);
+  REQUIRE(nothing.measures.inlier_fraction == 0.0F);
+  REQUIRE(nothing.measures.residual_m == Approx(tracker.settings().coarsest_outlier_m));
+}
+
 TEST_CASE("IcpTracker: a plane alone is ill-posed in the measures, and moves nothing along itself") {
   Scene plane;
   plane.sphere_centre_world = {0.0, 0.0, -100.0};

@@ -137,8 +137,11 @@ TEST_CASE("PoseRefiner: of equal steps, what the wear on them says counts, not h
   above.translation += step_world;
   SE3 below = truth;
   below.translation -= step_world;
-  // From a step higher, more of the frame falls on the map than from the truth.
-  REQUIRE(refiner.refine_one(frame.view(), volume, above).score > refiner.refine_one(frame.view(), volume, truth).score);
+  // From a step higher, more of the frame falls on the map than from the truth, and by itself that pose would be believed.
+  const RefinedPose one_above = refiner.refine_one(frame.view(), volume, above);
+  REQUIRE(one_above.accepted);
+  REQUIRE(translation_distance_m(one_above.world_from_camera, truth) > 0.2F);
+  REQUIRE(one_above.agreement.overlap > refiner.refine_one(frame.view(), volume, truth).agreement.overlap);
   const std::vector<RefinedPose> refined =
       refiner.refine(frame.view(), volume, std::vector<PoseEstimate>{proposal(above), proposal(truth), proposal(below)});
   REQUIRE(refined.front().accepted);

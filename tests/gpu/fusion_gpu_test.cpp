@@ -147,6 +147,8 @@ TEST_CASE("CUDA: tracking gives the CPU's poses and measures") {
     REQUIRE(rotation_distance_rad(actual.world_from_camera, expected.world_from_camera) < kPoseTolerance_rad);
     REQUIRE(actual.measures.well_posed == expected.measures.well_posed);
     REQUIRE(std::abs(actual.measures.inlier_fraction - expected.measures.inlier_fraction) < 0.01F);
+    REQUIRE(std::abs(actual.measures.residual_m - expected.measures.residual_m) < 0.001F);
+    REQUIRE(std::abs(actual.num_mapped - expected.num_mapped) <= expected.num_valid / 100);
     REQUIRE(std::abs(actual.measures.log_det_total - expected.measures.log_det_total) < 0.05F);
   }
 }

@@ -60,6 +60,32 @@ TEST_CASE("collect_quality_examples: both kinds for both classifiers, labelled b
   for (std::size_t i = 0; i < again.acceptance.size(); ++i) REQUIRE(again.acceptance[i].values == examples.acceptance[i].values);
 }
 
+TEST_CASE("collect_quality_examples: right poses in half-mapped views are among the examples") {
+  const auto office = room("synthetic:office?frames=40");
+  const auto views = room("synthetic:office?frames=40&trajectory=test");
+  QualityExampleSettings settings = few_examples();
+  settings.try_stride = 1000;
+  settings.spoilt_part = 0.0F;
+  settings.view_stride = 4;
+  settings.frame_stride = 4;
+  const auto num_half_mapped = [&](int partial_maps) {
+    settings.partial_maps = partial_maps;
+    const QualityRecording recording{office.get(), views.get(), nullptr, 0};
+    QualityExamples examples;
+    int num_done = 0;
+    collect_quality_examples(Context(), recording, {}, settings, examples, [&](int done) {
+      num_done = done;
+      return true;
+    });
+    REQUIRE(num_done == num_example_frames(recording, settings));
+    return std::count_if(examples.acceptance.begin(), examples.acceptance.end(), [](const ClassifierExample& example) {
+      constexpr std::size_t kOverlap = 0;  // of acceptance_features()
+      return example.positive && example.values[kOverlap] > 0.3F && example.values[kOverlap] < 0.7F;
+    });
+  };
+  REQUIRE(num_half_mapped(3) > num_half_mapped(0) + 3);
+}
+
 TEST_CASE("collect_quality_examples: stops when told to, and nothing of another world is right") {
   const auto office = room("synthetic:office?frames=6");
   const auto lounge = room("synthetic:lounge?frames=40");

@@ -188,9 +188,10 @@ struct SumChunk {
       jacobian[4][i] = ny[i];
       jacobian[5][i] = nz[i];
       // Tukey's loss relative to its limit, 1 for an outlier: rho = 1 - (1 - (r/c)^2)^3.
-      sums[kNumHessian + 6][i] += points.valid[i] * (partner ? 1.0F - inside * inside * inside : 1.0F);
-      sums[kNumHessian + 7][i] += partner ? 1.0F : 0.0F;
-      sums[kNumHessian + 8][i] += points.valid[i];
+      sums[kCostSum][i] += points.valid[i] * (partner ? 1.0F - inside * inside * inside : 1.0F);
+      sums[kInlierSum][i] += partner ? 1.0F : 0.0F;
+      sums[kValidSum][i] += points.valid[i];
+      sums[kMappedSum][i] += has_normal ? points.valid[i] : 0.0F;
     }
     int row = 0;
     for (int a = 0; a < 6; ++a) {
@@ -233,8 +234,8 @@ struct SolveStep {
     }
     team.sync();
     if (team.lane() != 0) return;
-    const double num_valid = sums[kNumHessian + 8];
-    const double cost = num_valid > 0.0 ? sums[kNumHessian + 6] / num_valid : 1.0;
+    const double num_valid = sums[kValidSum];
+    const double cost = num_valid > 0.0 ? sums[kCostSum] / num_valid : 1.0;
     constexpr float kFirstDamping = 1e-4F;
     if (first_of_level || cost <= state.cost) {
       state.damping = first_of_level ? kFirstDamping : 0.1F * state.damping;

@@ -16,9 +16,13 @@ struct DepthLevel {
   Intrinsics intrinsics;
 };
 
-/// What an alignment step sums over pixels: the upper triangle of H, J^T r, the robust cost, inliers, valid pixels.
+/// What an alignment step sums over pixels: the upper triangle of H, J^T r, and then these.
 inline constexpr int kNumHessian = 21;
-inline constexpr int kNumSums = kNumHessian + 6 + 3;
+inline constexpr int kCostSum = kNumHessian + 6;  ///< the robust cost, 1 for each valid pixel without a partner
+inline constexpr int kInlierSum = kCostSum + 1;   ///< pixels with a partner
+inline constexpr int kValidSum = kCostSum + 2;    ///< pixels with depth
+inline constexpr int kMappedSum = kCostSum + 3;   ///< pixels with depth that land on rendered surface
+inline constexpr int kNumSums = kCostSum + 4;
 
 /// The progress of an alignment; lives in the device's memory, so that no step waits for the host.
 struct IcpState {
@@ -31,7 +35,7 @@ struct IcpState {
   int converged;  ///< nonzero: the level is done
 };
 
-static_assert(sizeof(IcpState) == 400, "copied from the device");
+static_assert(sizeof(IcpState) == 408, "copied from the device");
 
 struct IcpTracker::Scratch {
   explicit Scratch(MemoryKind memory) : guess(memory), states(memory), world_from_cameras(memory), chunk_sums(memory) {}

@@ -84,26 +84,33 @@ Eigen::Vector3f loosest_translation(const Eigen::Matrix<double, 6, 6>& hessian) 
   return solver.eigenvectors().col(0).cast<float>();
 }
 
+/// Alignments on less of a frame than this are judged as if it were that much: a patch that agrees with itself is no evidence. The same
+/// part under which poses are refused without asking, PoseRefinerSettings::min_overlap.
+constexpr double kLeastMappedPart = 0.2;
+
 /// @param num_total  Pixels at the finest level.
 TrackingResult summarise(const IcpState& state, const SE3& world_from_camera, double num_total, const IcpSettings& settings) {
   TrackingResult result;
   result.world_from_camera = world_from_camera;
-  result.num_inliers = static_cast<int>(state.sums[kNumHessian + 7]);
-  result.num_valid = static_cast<int>(state.sums[kNumHessian + 8]);
+  const double num_inliers = state.sums[kInlierSum];
+  const double num_valid = state.sums[kValidSum];
+  const double num_mapped = state.sums[kMappedSum];
+  result.num_inliers = static_cast<int>(num_inliers);
+  result.num_valid = static_cast<int>(num_valid);
+  result.num_mapped = static_cast<int>(num_mapped);
   TrackingMeasures& measures = result.measures;
-  const double num_valid = state.sums[kNumHessian + 8];
   const Eigen::Matrix<double, 6, 6> hessian = hessian_of(state);
   measures.well_posed =
       log_determinant(hessian, num_total, measures.log_det_total) && log_determinant(hessian, num_valid, measures.log_det_valid);
   if (measures.well_posed) result.loosest_world = state.world_from_model.rotation * loosest_translation(hessian);
   if (num_valid > 0.0) {
-    measures.inlier_fraction = static_cast<float>(state.sums[kNumHessian + 7] / num_valid);
-    const double missing = num_valid - state.sums[kNumHessian + 7];
-    const double inliers_cost = state.sums[kNumHessian + 6] - missing;
+    const double num_judged = std::max(num_mapped, kLeastMappedPart * num_valid);
+    measures.inlier_fraction = static_cast<float>(num_inliers / num_judged);
+    const double inliers_cost = state.sums[kCostSum] - (num_valid - num_inliers);
     // Tukey's loss saturates at c^2 / 6 in units of a squared residual.
     const double squared = (inliers_cost * settings.finest_outlier_m * settings.finest_outlier_m / 6.0 +
-                            missing * settings.coarsest_outlier_m * settings.coarsest_outlier_m) /
-                           num_valid;
+                            (num_judged - num_inliers) * settings.coarsest_outlier_m * settings.coarsest_outlier_m) /
+                           num_judged;
     measures.residual_m = static_cast<float>(std::sqrt(std::max(0.0, squared)));
   }
   return result;

@@ -136,6 +136,15 @@ class Collector {
     for (const SE3& start : mine(frame, random)) try_acceptance(frame, start, verdict);
   }
 
+  /// Whether a part of a frame is mapped, and a part is not.
+  bool is_partly_mapped(const RgbdFrame& frame) {
+    if (!has_map()) return false;
+    check_.set_frame(frame.view());
+    render(frame, *frame.world_from_camera, fusion_.render_divisor);
+    const float overlap = check_.compare(map_, *frame.world_from_camera).overlap;
+    return overlap > settings_.least_partial_overlap && overlap < settings_.most_partial_overlap;
+  }
+
   /// Tries a frame of another world, where everything is wrong.
   void try_foreign(RgbdFrame frame, Random& random) {
     spoil(frame, draw_spoilage(settings_.spoilt_part, random), random);
@@ -234,7 +243,7 @@ int num_example_frames(const QualityRecording& recording, const QualityExampleSe
   const auto count = [](const Sequence* sequence, int stride) {
     return sequence != nullptr ? (sequence->num_frames() + stride - 1) / stride : 0;
   };
-  return count(recording.mapped, settings.frame_stride) + count(recording.views, settings.view_stride) +
+  return count(recording.mapped, settings.frame_stride) + (settings.partial_maps + 1) * count(recording.views, settings.view_stride) +
          count(recording.foreign, settings.foreign_stride);
 }
 
@@ -245,29 +254,38 @@ void collect_quality_examples(const Context& context, const QualityRecording& re
   fusion.validate();
   const std::uint64_t seed = derive_seed(settings.seed, static_cast<std::uint64_t>(recording.group));
   constexpr std::uint64_t kCameraStream = 3;  // after those of the three kinds of frames
+  constexpr std::uint64_t kFirstPartialStream = 4;
   Collector collector(context, fusion, settings, recording.group, Random(seed, kCameraStream), examples);
   int num_done = 0;
-  // Goes through the frames with a true pose; false if it was stopped.
+  bool stopped = false;
+  // Goes through the frames with a true pose.
   const auto each = [&](const Sequence* sequence, int stride, std::uint64_t stream, const auto& take) {
-    for (int i = 0; sequence != nullptr && i < sequence->num_frames(); i += stride) {
+    for (int i = 0; sequence != nullptr && !stopped && i < sequence->num_frames(); i += stride) {
       Random random(seed, derive_seed(stream, static_cast<std::uint64_t>(i)));
       RgbdFrame frame = sequence->load(i);
       if (frame.world_from_camera) take(std::move(frame), random, i);
-      if (progress && !progress(++num_done)) return false;
+      if (!stopped && progress && !progress(++num_done)) stopped = true;
     }
-    return true;
   };
-  const bool mapped = each(recording.mapped, settings.frame_stride, 0, [&](RgbdFrame frame, Random& random, int index) {
+  const auto try_views = [&](std::uint64_t stream, const auto& is_tried) {
+    each(recording.views, settings.view_stride, stream, [&](RgbdFrame frame, Random& random, int) {
+      if (!is_tried(frame)) return;
+      collector.prepare_other(frame, random);
+      collector.try_frame(std::move(frame), random);
+    });
+  };
+  const auto num_parts_before = [&](int index) { return index * (settings.partial_maps + 1) / recording.mapped->num_frames(); };
+  each(recording.mapped, settings.frame_stride, 0, [&](RgbdFrame frame, Random& random, int index) {
     collector.prepare_mapped(frame, index, random);
     if (collector.has_map() && index / settings.frame_stride % settings.try_stride == 0) collector.try_frame(frame, random);
     collector.fuse(frame, random);
+    const int next = std::min(index + settings.frame_stride, recording.mapped->num_frames() - 1);
+    for (int part = num_parts_before(index); part < num_parts_before(next); ++part)
+      try_views(kFirstPartialStream + static_cast<std::uint64_t>(part),
+                [&](const RgbdFrame& view) { return collector.is_partly_mapped(view); });
   });
-  if (!mapped || !collector.has_map()) return;
-  const bool viewed = each(recording.views, settings.view_stride, 1, [&](RgbdFrame frame, Random& random, int) {
-    collector.prepare_other(frame, random);
-    collector.try_frame(std::move(frame), random);
-  });
-  if (!viewed) return;
+  if (stopped || !collector.has_map()) return;
+  try_views(1, [](const RgbdFrame&) { return true; });
   each(recording.foreign, settings.foreign_stride, 2, [&](RgbdFrame frame, Random& random, int) {
     collector.prepare_other(frame, random);
     collector.try_foreign(std::move(frame), random);

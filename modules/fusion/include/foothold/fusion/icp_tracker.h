@@ -66,13 +66,15 @@ struct IcpSettings {
 
 /// What alignment says about itself; the tracking-quality gate judges by it. Reference: [Prisacariu2017] Sec. 4.
 struct TrackingMeasures {
-  /// log det(H n / N_total): how well the pose is determined, over all pixels; meaningless unless well_posed.
+  /// log det(H n / N_total): how well the pose is determined, over all pixels; meaningless unless well_posed. A small overlap shows here.
   float log_det_total = 0.0F;
   /// log det(H n / N_valid): the same over the pixels with depth.
   float log_det_valid = 0.0F;
-  /// Root of the mean robust squared residual [m], pixels with depth but without a partner counting as coarsest_outlier_m.
+  /// Root of the mean robust squared residual [m] of the pixels that land on mapped surface, those without a partner counting as
+  /// coarsest_outlier_m. Where nothing is mapped, nothing can disagree; but less than a fifth of the pixels with depth counts as a fifth,
+  /// the rest of it without partners.
   float residual_m = 0.0F;
-  /// Part of the pixels with depth that found a partner, n / N_valid.
+  /// Part of those pixels that found a partner, n / max(N_mapped, N_valid / 5).
   float inlier_fraction = 0.0F;
   /// Whether the Hessian is positive definite.
   bool well_posed = false;
@@ -83,7 +85,8 @@ struct TrackingResult {
   SE3 world_from_camera;
   TrackingMeasures measures;
   int num_inliers = 0;
-  int num_valid = 0;  ///< pixels with depth, at the finest level
+  int num_valid = 0;   ///< pixels with depth, at the finest level
+  int num_mapped = 0;  ///< of these, those that land on rendered surface whose normal is known
   /// The translation that the surfaces resist least, rotation being free to follow: along a table top, a corridor. Unit length, in the
   /// world, either of its two signs; zero unless well_posed.
   Eigen::Vector3f loosest_world = Eigen::Vector3f::Zero();

@@ -23,6 +23,11 @@ struct QualityExampleSettings {
   int view_stride = 7;
   /// Of another recording's frames, every so many are tried on the finished map.
   int foreign_stride = 12;
+  /// So many times, evenly spread over the mapped recording, the frames that are never fused are also tried on what is mapped until then:
+  /// those of them of which between these parts fall on the map.
+  int partial_maps = 3;
+  float least_partial_overlap = 0.2F;
+  float most_partial_overlap = 0.8F;
   /// Starts tried for a frame.
   int starts_per_frame = 8;
   /// Further starts for a frame, those of mined_from poses somewhere in the map that look most like the frame after coarse alignment.
@@ -57,6 +62,9 @@ struct QualityExampleSettings {
     v(&S::try_stride, "try_stride", "Of these, every so many are tried.", Range{1, 1000});
     v(&S::view_stride, "view_stride", "Of the frames that are never fused, every so many are tried.", Range{1, 1000});
     v(&S::foreign_stride, "foreign_stride", "Of another recording's frames, every so many are tried.", Range{1, 1000});
+    v(&S::partial_maps, "partial_maps", "Times at which they are also tried on what is mapped until then.", Range{0, 100});
+    v(&S::least_partial_overlap, "least_partial_overlap", "Part of such a frame that falls on the map, at least.", Range{0.0, 1.0});
+    v(&S::most_partial_overlap, "most_partial_overlap", "Part of such a frame that falls on the map, at most.", Range{0.0, 1.0});
     v(&S::starts_per_frame, "starts_per_frame", "Starts tried for a frame.", Range{1, 1000});
     v(&S::mined_starts, "mined_starts", "Further starts: those that look most like the frame.", Range{0, 1000});
     v(&S::mined_from, "mined_from", "Poses among which these are sought.", Range{1, 1000});
@@ -79,7 +87,7 @@ struct QualityExampleSettings {
 /// A map and what is tried on it.
 struct QualityRecording {
   const Sequence* mapped = nullptr;   ///< fused with its true poses; each frame is tried before it is fused
-  const Sequence* views = nullptr;    ///< other frames of the same world, tried on the finished map; may be null
+  const Sequence* views = nullptr;    ///< other frames of the same world, tried on the finished map and on parts of it; may be null
   const Sequence* foreign = nullptr;  ///< frames of another world: whatever pose is found for them is wrong; may be null
   int group = 0;                      ///< given to every example
 };
