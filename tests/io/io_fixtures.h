@@ -1,33 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// What the tests of module io share: a folder that cleans up after itself, small frames, and the text of expected errors.
+/// What the tests of module io share: small frames, and the text of expected errors.
 #pragma once
 
-#include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "foothold/api/frame.h"
 #include "foothold/base/error.h"
+#include "support/temp_folder.h"
 
 namespace foothold::test {
-
-/// A new folder, deleted with all it holds at the end of the test.
-class TempFolder {
- public:
-  TempFolder();
-  ~TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-
-  std::string path() const { return path_.string(); }
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-  /// Files directly inside.
-  int num_files() const;
-
- private:
-  std::filesystem::path path_;
-};
 
 void write_text(const std::string& path, const std::string& text);
 std::string read_text(const std::string& path);

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Foothold authors
 #include "forest_checkpoint.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -10,6 +9,7 @@
 #include "foothold/base/error.h"
 #include "support/catch.h"
 #include "support/error_message.h"
+#include "support/temp_folder.h"
 
 namespace foothold {
 namespace {
@@ -24,7 +24,8 @@ ForestExamples no_examples() {
 
 /// A file with two scenes and a level.
 struct Fixture {
-  std::string path = (std::filesystem::temp_directory_path() / "foothold-checkpoint-test").string();
+  test::TempFolder folder;
+  std::string path = folder / "checkpoint";
   ForestExamples examples = no_examples();
   ForestLevel level{{{2, -5}, 1}, {{0, 0}, 0}};
   std::string bytes;
@@ -45,7 +46,6 @@ struct Fixture {
     text << std::ifstream(path, std::ios::binary).rdbuf();
     bytes = text.str();
   }
-  ~Fixture() { std::remove(path.c_str()); }
   Fixture(const Fixture&) = delete;
   Fixture& operator=(const Fixture&) = delete;
 

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/learning/forest_training.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -11,6 +10,7 @@
 #include "foothold/base/error.h"
 #include "support/catch.h"
 #include "support/error_message.h"
+#include "support/temp_folder.h"
 
 namespace foothold {
 namespace {
@@ -44,17 +44,6 @@ Context context_of(int num_threads, LogSink log = {}) {
   options.log = std::move(log);
   return Context(options);
 }
-
-/// A file name that is free, and is cleaned up.
-struct TemporaryFile {
-  std::string path;
-  explicit TemporaryFile(const std::string& name) : path((std::filesystem::temp_directory_path() / ("foothold-" + name)).string()) {
-    std::remove(path.c_str());
-  }
-  ~TemporaryFile() { std::remove(path.c_str()); }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-};
 
 /// Trains until progress was reported `num_reports` times. @return Whether it was finished by then.
 bool train_for(int num_reports, const std::string& checkpoint, const ForestTrainingSettings& settings) {
@@ -93,11 +82,12 @@ TEST_CASE("train_forest: an interrupted training resumes to the same bytes, wher
   ForestTrainingSettings settings = small_settings();
   settings.agreement_weight = GENERATE(0.0F, 1.0F);
   const std::string expected = bytes_of(train_forest(context_of(2), two_walls(), settings).value());
-  const TemporaryFile checkpoint("resume-test.checkpoint");
+  const test::TempFolder folder;
+  const std::string checkpoint = folder / "checkpoint";
   // 12 reports from 11 frames, one before each of 7 levels.
-  for (const int num_reports : {3, 9, 8, 2, 4}) REQUIRE_FALSE(train_for(num_reports, checkpoint.path, settings));
+  for (const int num_reports : {3, 9, 8, 2, 4}) REQUIRE_FALSE(train_for(num_reports, checkpoint, settings));
   ForestTrainingRun run;
-  run.checkpoint = checkpoint.path;
+  run.checkpoint = checkpoint;
   run.resume = true;
   int num_frames_read = 0;
   run.progress = [&](const ForestTrainingProgress& progress) {
@@ -110,34 +100,37 @@ TEST_CASE("train_forest: an interrupted training resumes to the same bytes, wher
 
 TEST_CASE("train_forest: a checkpoint that was cut short anywhere leads to the same bytes") {
   const ForestTrainingSettings settings = small_settings();
-  const TemporaryFile checkpoint("cut-test.checkpoint");
+  const test::TempFolder folder;
+  const std::string checkpoint = folder / "checkpoint";
   ForestTrainingRun run;
-  run.checkpoint = checkpoint.path;
+  run.checkpoint = checkpoint;
   const std::string expected = bytes_of(train_forest(context_of(2), two_walls(), settings, run).value());
   run.resume = true;
-  const auto whole = static_cast<double>(std::filesystem::file_size(checkpoint.path));
+  const auto whole = static_cast<double>(std::filesystem::file_size(checkpoint));
   for (const double share : {0.999, 0.9, 0.3, 0.001}) {
-    std::filesystem::resize_file(checkpoint.path, static_cast<std::uintmax_t>(share * whole));
+    std::filesystem::resize_file(checkpoint, static_cast<std::uintmax_t>(share * whole));
     CHECK(bytes_of(train_forest(context_of(2), two_walls(), settings, run).value()) == expected);
-    CHECK(static_cast<double>(std::filesystem::file_size(checkpoint.path)) == whole);
+    CHECK(static_cast<double>(std::filesystem::file_size(checkpoint)) == whole);
   }
 }
 
 TEST_CASE("train_forest: refuses the checkpoint of another training") {
   ForestTrainingSettings settings = small_settings();
-  const TemporaryFile checkpoint("other-test.checkpoint");
-  REQUIRE_FALSE(train_for(9, checkpoint.path, settings));
+  const test::TempFolder folder;
+  const std::string checkpoint = folder / "checkpoint";
+  REQUIRE_FALSE(train_for(9, checkpoint, settings));
   settings.seed = 1;
-  const std::string message = test::error_message<FileError>([&] { train_for(9, checkpoint.path, settings); });
-  CHECK(test::contains(message, checkpoint.path));
+  const std::string message = test::error_message<FileError>([&] { train_for(9, checkpoint, settings); });
+  CHECK(test::contains(message, checkpoint));
   CHECK(test::contains(message, "another training"));
 }
 
 TEST_CASE("train_forest: without resume, an old checkpoint is replaced") {
-  const TemporaryFile checkpoint("replaced-test.checkpoint");
-  std::ofstream(checkpoint.path) << "something else";
+  const test::TempFolder folder;
+  const std::string checkpoint = folder / "checkpoint";
+  std::ofstream(checkpoint) << "something else";
   ForestTrainingRun run;
-  run.checkpoint = checkpoint.path;
+  run.checkpoint = checkpoint;
   CHECK(train_forest(context_of(2), two_walls(), small_settings(), run).has_value());
 }
 
