@@ -90,6 +90,8 @@ class Replayer {
   int num_frames() const { return static_cast<int>(indices_.size()); }
   bool stopped() const { return apps::interrupted() || view_.ended(); }
   Reconstruction start() const;
+  /// Every frame once, in order.
+  std::vector<PlayStep> all_frames() const { return plan_sequential_kidnaps(num_frames(), {}).steps; }
   std::unique_ptr<FrameSource> open(const std::vector<PlayStep>& steps) const;
   ReplayFrame show(Reconstruction& reconstruction, RgbdFrame& frame, const PlayStep& step, const std::string& event);
   /// Plays steps. `before` is called before each with the last frame and the position in the steps.
@@ -204,8 +206,8 @@ ReplayRun Replayer::play_undisturbed(const std::vector<Kidnap>& independent, std
       records.push_back(branch_off(reconstruction, independent[next], so_far));
     }
   };
-  return play(independent.empty() ? "undisturbed" : "undisturbed, with kidnaps of copies", reconstruction,
-              plan_sequential_kidnaps(num_frames(), {}).steps, {}, branch_where_due);
+  return play(independent.empty() ? "undisturbed" : "undisturbed, with kidnaps of copies", reconstruction, all_frames(), {},
+              branch_where_due);
 }
 
 void Replayer::play_kidnapped(const KidnapPlan& plan, ReplayResult& result) {
@@ -249,7 +251,7 @@ void Replayer::judge(ReplayResult& result) const {
 
 Mesh Replayer::mesh_from_true_poses() const {
   TsdfVolume volume(context_, settings_.fusion.volume);
-  const std::unique_ptr<FrameSource> source = open(plan_sequential_kidnaps(num_frames(), {}).steps);
+  const std::unique_ptr<FrameSource> source = open(all_frames());
   apps::ProgressBar progress("fusing from true poses", num_frames());
   FrameUploader uploader(context_);
   RgbdFrame frame;
@@ -258,10 +260,11 @@ Mesh Replayer::mesh_from_true_poses() const {
     volume.integrate(uploader.upload(frame.view()), *frame.world_from_camera);
     progress.advance();
   }
+  if (stopped()) return {};  // part of a surface is no reference
   return extract_mesh(volume);
 }
 
-/// Against one another, and against what the recording's own poses make of the same frames.
+/// Against one another, and against what the recording's own poses make of all its frames.
 void Replayer::compare_surfaces(ReplayResult& result) const {
   const auto voxel_m = static_cast<double>(settings_.fusion.volume.voxel_size_m);
   const double limit_m = std::max(0.05, voxel_m);
@@ -287,9 +290,7 @@ ReplayResult Replayer::run() {
   if (with_kidnaps && options_.independent) independent = plan_independent_kidnaps(num_frames(), options_.kidnaps);
   if (with_kidnaps && !options_.independent) plan = plan_sequential_kidnaps(num_frames(), options_.kidnaps);
   result.undisturbed = play_undisturbed(independent, result.kidnaps);
-  if (!plan.steps.empty() && !stopped()) {
-    play_kidnapped(plan, result);
-  }
+  if (!plan.steps.empty() && !stopped()) play_kidnapped(plan, result);
   judge(result);
   result.peak_mb = apps::peak_memory_mb();  // before surfaces are compared, which is no part of reconstruction
   if (result.kidnapped.has_value() && !stopped()) compare_surfaces(result);

@@ -49,7 +49,7 @@ struct KidnapRecord {
 /// How far one surface lies from another, and the other from the one.
 struct SurfaceComparison {
   std::string run;
-  std::string reference;      ///< the run whose surface it is held against, or "true poses": the same frames fused from these
+  std::string reference;      ///< the run whose surface it is held against, or "true poses": all frames fused from these
   MeshDistance accuracy;      ///< of the run's vertices from the reference
   MeshDistance completeness;  ///< of the reference's vertices from the run
 };

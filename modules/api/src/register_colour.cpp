@@ -5,7 +5,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cstdint>
-#include <utility>
+#include <iterator>
 #include <vector>
 
 #include "foothold/base/contract.h"

@@ -123,7 +123,9 @@ RefinedPose PoseRefiner::judge(const TrackingMeasures& measures, const ViewAgree
   return result;
 }
 
-void PoseRefiner::weigh(const PoseEstimate& proposal, RefinedPose& pose) const {
+void PoseRefiner::attribute(Span<const PoseEstimate> proposals, int candidate, RefinedPose& pose) const {
+  pose.candidate = candidate;
+  const PoseEstimate& proposal = proposals[static_cast<std::size_t>(candidate)];
   if (!is_near(proposal.world_from_camera, pose.world_from_camera, kConfidentWithinM, kConfidentWithinDeg)) return;
   // In doubt it speaks neither for nor against: it proposed the pose all the same.
   if (!(proposal.confidence > 0.5F)) return;
@@ -185,10 +187,7 @@ std::vector<RefinedPose> PoseRefiner::rank_coarsely(const Frame& frame, const Ts
     indices.push_back(static_cast<int>(i));
   }
   std::vector<RefinedPose> candidates = align_coarsely(frame, volume, starts);
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    candidates[i].candidate = indices[i];
-    weigh(proposals[static_cast<std::size_t>(indices[i])], candidates[i]);
-  }
+  for (std::size_t i = 0; i < candidates.size(); ++i) attribute(proposals, indices[i], candidates[i]);
   std::stable_sort(candidates.begin(), candidates.end(), [&](const RefinedPose& a, const RefinedPose& b) { return is_better(a, b); });
 
   std::vector<RefinedPose> distinct;
@@ -208,10 +207,7 @@ std::vector<RefinedPose> PoseRefiner::refine_finalists(const Frame& frame, const
   std::vector<SE3> starts;
   for (const RefinedPose& candidate : ranked) starts.push_back(candidate.world_from_camera);
   std::vector<RefinedPose> finalists = align_finely(frame, volume, starts);
-  for (std::size_t i = 0; i < finalists.size(); ++i) {
-    finalists[i].candidate = ranked[i].candidate;
-    weigh(proposals[static_cast<std::size_t>(ranked[i].candidate)], finalists[i]);
-  }
+  for (std::size_t i = 0; i < finalists.size(); ++i) attribute(proposals, ranked[i].candidate, finalists[i]);
   return finalists;
 }
 

@@ -17,7 +17,7 @@ bool is_registered(const RgbdCalibration& calibration);
 /// behind a foreground takes the foreground's colour.
 ///
 /// @pre Depth and colour have the same size.
-/// Cost: about 2 ms for 640x480 pixels on one core; three bytes a pixel for the result and eight as scratch.
+/// Cost: about 1.4 ms for 640x480 pixels on one core; eight bytes a pixel as scratch.
 void register_colour(RgbdFrame& frame);
 
 }  // namespace foothold

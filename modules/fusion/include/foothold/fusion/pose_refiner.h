@@ -135,8 +135,8 @@ class PoseRefiner {
   /// Aligns poses coarsely, or finely, and judges them: one result for each.
   std::vector<RefinedPose> align_coarsely(const Frame& frame, const TsdfVolume& volume, Span<const SE3> proposals);
   std::vector<RefinedPose> align_finely(const Frame& frame, const TsdfVolume& volume, Span<const SE3> proposals);
-  /// Adds the confidence in a proposal to what the map says of the pose that it became.
-  void weigh(const PoseEstimate& proposal, RefinedPose& pose) const;
+  /// Notes which proposal a pose came of, and adds the confidence in it to what the map says.
+  void attribute(Span<const PoseEstimate> proposals, int candidate, RefinedPose& pose) const;
   /// Judges what was aligned with the renderings in map_.
   std::vector<RefinedPose> judge_rendered(IcpTracker& aligned);
   bool is_same(const SE3& a, const SE3& b) const;
