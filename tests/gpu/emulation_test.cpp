@@ -32,8 +32,6 @@ bool is_deadly(const Deed& deed) {
   return !WIFEXITED(status) || WEXITSTATUS(status) != 0;
 }
 
-struct NoScratch {};
-
 TEST_CASE("emulated CUDA: the host dies of device memory, kernels do not") {
   const Context context = test::context_on(Device::kCuda);
   Array<int> array(MemoryKind::kCuda, 100);
@@ -67,7 +65,7 @@ TEST_CASE("emulated CUDA: kernels run no sooner than the host waits") {
 TEST_CASE("emulated CUDA: lanes of one team that come to different barriers die") {
   const Context context = test::context_on(Device::kCuda);
   REQUIRE(is_deadly([&] {
-    CudaExecutor(context).for_each_team<NoScratch>(1, [](const CudaTeam& team, NoScratch&, std::size_t) {
+    CudaExecutor(context).for_each_team(1, [](const CudaTeam& team, std::size_t) {
       if (team.lane() == 0) team.sync();
     });
     context.synchronise();

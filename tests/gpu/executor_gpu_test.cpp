@@ -45,6 +45,7 @@ TEST_CASE("CudaExecutor::for_each_team: lanes share memory and reduce") {
       REQUIRE(results.arrays[3 * i + 1] == static_cast<float>(std::inner_product(values.begin(), values.end(), values.begin(), 0)));
       REQUIRE(results.arrays[3 * i + 2] == static_cast<float>(values_per_item));
     }
+    REQUIRE(test::run_bare_teams(context, kItems, values_per_item) == results.sums);
   }
 }
 

@@ -23,6 +23,8 @@ struct TeamResults {
 int team_value(int item, int k);
 
 TeamResults run_team_verbs(const Context& context, int num_items, int values_per_item);
+/// The sums of the values alone, by teams that share no memory.
+std::vector<int> run_bare_teams(const Context& context, int num_items, int values_per_item);
 /// visits[i] = i * i for i below n.
 std::vector<std::uint32_t> run_for_each(const Context& context, std::size_t n);
 std::vector<std::uint32_t> run_exclusive_scan(const Context& context, const std::vector<std::uint32_t>& in);

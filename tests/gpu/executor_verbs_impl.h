@@ -57,6 +57,19 @@ struct ReduceItem {
   }
 };
 
+struct SumItem {
+  int values_per_item;
+  int* sums;
+
+  template <class Team>
+  FOOTHOLD_HD void operator()(const Team& team, std::size_t item) const {
+    int sum = 0;
+    for (int k = team.lane(); k < values_per_item; k += team.size()) sum += value_of(static_cast<int>(item), k);
+    sum = team.sum(sum);
+    if (team.lane() == 0) sums[item] = sum;
+  }
+};
+
 struct Square {
   std::uint32_t* values;
   FOOTHOLD_HD void operator()(std::size_t i) const { values[i] = static_cast<std::uint32_t>(i * i); }
@@ -86,6 +99,12 @@ TeamResults run_team_verbs(const Context& context, int num_items, int values_per
   CudaExecutor(context).template for_each_team<verbs::SharedCounter>(
       n, verbs::ReduceItem{values_per_item, sums.data(), arrays.data(), lowest.data(), highest.data(), counted.data()});
   return {sums.to_host(context), arrays.to_host(context), lowest.to_host(context), highest.to_host(context), counted.to_host(context)};
+}
+
+std::vector<int> run_bare_teams(const Context& context, int num_items, int values_per_item) {
+  Array<int> sums(context.memory(), static_cast<std::size_t>(num_items));
+  CudaExecutor(context).for_each_team(sums.size(), verbs::SumItem{values_per_item, sums.data()});
+  return sums.to_host(context);
 }
 
 std::vector<std::uint32_t> run_for_each(const Context& context, std::size_t n) {

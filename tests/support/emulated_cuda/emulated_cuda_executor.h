@@ -103,6 +103,11 @@ class CudaExecutor {
     });
   }
 
+  template <class Body>
+  void for_each_team(std::size_t n, const Body& body) const {
+    for_each_team<None>(n, [body](const CudaTeam& team, None&, std::size_t i) { body(team, i); });
+  }
+
   template <class Scratch, class Body>
   void for_each_team(std::size_t n, const Body& body) const {
     if (n == 0) return;
@@ -148,6 +153,8 @@ class CudaExecutor {
   void synchronise() const { context_.synchronise(); }
 
  private:
+  struct None {};
+
   template <class Scratch>
   struct Aligned {
     alignas(64) unsigned char bytes[sizeof(Scratch)];

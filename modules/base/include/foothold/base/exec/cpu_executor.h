@@ -6,7 +6,8 @@
 /// same verbs:
 ///
 ///   for_each(n, body)                body(i) for i in [0, n), in any order
-///   for_each_team<Scratch>(n, body)  body(team, i): one team of lanes per item, with Scratch shared by its lanes
+///   for_each_team(n, body)           body(team, i): one team of lanes per item
+///   for_each_team<Scratch>(n, body)  body(team, scratch, i): the same, with Scratch shared by the team's lanes
 ///   exclusive_scan(in, out)          out[i] = in[0] + ... + in[i-1]; out has one element more, the total
 ///   sort(keys, buffer, low, high)    stable sort of 64-bit keys by their bits [low, high)
 ///
@@ -74,6 +75,13 @@ class CpuExecutor {
   void for_each(std::size_t n, const Body& body) const {
     run(n, kElementGrain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) body(i);
+    });
+  }
+
+  template <class Body>
+  void for_each_team(std::size_t n, const Body& body) const {
+    run(n, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) body(CpuTeam{}, i);
     });
   }
 

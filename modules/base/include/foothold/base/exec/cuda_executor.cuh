@@ -95,8 +95,13 @@ __global__ void for_each_kernel(std::size_t n, Body body) {
   if (i < n) body(i);
 }
 
-template <class Scratch, class Body>
+template <class Body>
 __global__ void __launch_bounds__(CudaTeam::kSize) for_each_team_kernel(Body body) {
+  body(CudaTeam{}, static_cast<std::size_t>(blockIdx.x));
+}
+
+template <class Scratch, class Body>
+__global__ void __launch_bounds__(CudaTeam::kSize) for_each_team_with_scratch_kernel(Body body) {
   __shared__ __align__(16) unsigned char bytes[sizeof(Scratch)];
   body(CudaTeam{}, *reinterpret_cast<Scratch*>(bytes), static_cast<std::size_t>(blockIdx.x));
 }
@@ -119,10 +124,17 @@ class CudaExecutor {
     FOOTHOLD_CUDA_CHECK(cudaGetLastError());
   }
 
+  template <class Body>
+  void for_each_team(std::size_t n, const Body& body) const {
+    if (n == 0) return;
+    detail::for_each_team_kernel<<<static_cast<unsigned>(n), CudaTeam::kSize, 0, stream_>>>(body);
+    FOOTHOLD_CUDA_CHECK(cudaGetLastError());
+  }
+
   template <class Scratch, class Body>
   void for_each_team(std::size_t n, const Body& body) const {
     if (n == 0) return;
-    detail::for_each_team_kernel<Scratch><<<static_cast<unsigned>(n), CudaTeam::kSize, 0, stream_>>>(body);
+    detail::for_each_team_with_scratch_kernel<Scratch><<<static_cast<unsigned>(n), CudaTeam::kSize, 0, stream_>>>(body);
     FOOTHOLD_CUDA_CHECK(cudaGetLastError());
   }
 
