@@ -3,7 +3,10 @@
 #include "features/feature_image.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "support/catch.h"
@@ -103,6 +106,30 @@ std::uint32_t expected_leaf(const FeatureImageView& image, double scale_px_mm, i
     node = forest.nodes()[static_cast<std::size_t>(node.left_child + (value >= node.threshold ? 1 : 0))];
   }
   return static_cast<std::uint32_t>(~node.left_child);
+}
+
+TEST_CASE("FeatureImage: a copy keeps its pixels when its source goes on to another frame, or ends") {
+  Random random = test::test_random();
+  const NoiseFrame first(random, 64, 48, 3);
+  const NoiseFrame second(random, 64, 48, 3);
+  const Context context;
+  auto source = std::make_unique<FeatureImage>(context);
+  source->compute(context, first.frame, 4);
+  const FeatureImageView of_source = source->view();
+  const std::vector<FeaturePixel> expected(of_source.pixels, of_source.pixels + of_source.width * of_source.height);
+  FeatureImage copy = *source;
+  FeatureImage assigned(context);
+  assigned = *source;
+  const auto require_expected = [&](const FeatureImageView& view) {
+    REQUIRE(view.width == 16);
+    REQUIRE(view.height == 12);
+    REQUIRE((std::memcmp(view.pixels, expected.data(), expected.size() * sizeof(FeaturePixel)) == 0));
+  };
+  source->compute(context, second.frame, 4);
+  require_expected(copy.view());
+  require_expected(assigned.view());
+  source.reset();
+  require_expected(FeatureImage(std::move(copy)).view());
 }
 
 TEST_CASE("find_leaves: each pixel reaches in each tree the leaf that the definition says") {

@@ -2,12 +2,16 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/relocalisation/forest_relocaliser.h"
 
+#include <functional>
 #include <limits>
+#include <sstream>
 #include <utility>
+#include <vector>
 
 #include "foothold/base/error.h"
 #include "relocalisation/scenes.h"
 #include "support/catch.h"
+#include "support/error_message.h"
 
 namespace foothold {
 namespace {
@@ -160,6 +164,31 @@ TEST_CASE("ForestRelocaliser: a copy goes its own way") {
   REQUIRE((saved(original) == grown));
   ForestRelocaliser moved = std::move(copy);
   REQUIRE((saved(moved) == grown));
+}
+
+TEST_CASE("ForestRelocaliser: what was moved from may be assigned to, and refuses everything else") {
+  ForestRelocaliser source = untrained();
+  ForestRelocaliser target = std::move(source);
+  const RgbdFrame& frame = office()[0];
+  std::stringstream stream;
+  const std::vector<std::function<void()>> uses = {[&] { source.train(frame.view(), *frame.world_from_camera); },
+                                                   [&] { source.relocalise(frame.view()); },
+                                                   [&] { source.explain(frame.view()); },
+                                                   [&] { source.update(); },
+                                                   [&] { source.reset(); },
+                                                   [&] { source.state_bytes(); },
+                                                   [&] { source.acceptance_threshold(); },
+                                                   [&] { source.save(stream); },
+                                                   [&] { source.load(stream); },
+                                                   [&] { source.forest(); },
+                                                   [&] { source.settings(); },
+                                                   [&] { const ForestRelocaliser copy(source); },
+                                                   [&] { target = std::as_const(source); }};
+  for (const std::function<void()>& use : uses) {
+    REQUIRE(test::contains(test::error_message<ContractViolation>(use), "moved_from"));
+  }
+  source = target;
+  REQUIRE((saved(source) == saved(target)));
 }
 
 TEST_CASE("ForestRelocaliser: reset forgets the scene, and training starts afresh") {

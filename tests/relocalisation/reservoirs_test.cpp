@@ -170,6 +170,41 @@ TEST_CASE("LeafReservoirs: the same whatever the number of threads") {
   require_same(all[0], all[2]);
 }
 
+/// One leaf that was offered `num_seen` points, of which it stores `capacity`, and is then offered 1000 more.
+LeafReservoirs seen_often(const Context& context, int capacity, std::uint32_t num_seen) {
+  LeafReservoirs reservoirs(context, 1, small_reservoirs(capacity), 42);
+  TrainingExamples examples(MemoryKind::kHost);
+  const auto offer = [&](std::uint32_t first, std::size_t count) {
+    examples.points.resize(count);
+    examples.leaves.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      examples.points[i] = numbered_point(first + static_cast<std::uint32_t>(i));
+      examples.leaves[i] = 0;
+    }
+    reservoirs.insert(context, examples);
+  };
+  offer(0, static_cast<std::size_t>(capacity));
+  reservoirs.view().num_seen[0] = num_seen;
+  reservoirs.view().num_changed[0] = 0;
+  offer(10000, 1000);
+  return reservoirs;
+}
+
+TEST_CASE("LeafReservoirs: a leaf that is offered points for ever stays within its bounds, and stops counting before its count wraps") {
+  constexpr int kCapacity = 32;
+  constexpr std::uint32_t kMax = ~std::uint32_t{0};
+  const Context context = context_of(1);
+  for (const std::uint32_t num_seen : {0x7ffffff0U, 0x80000000U, 0xc0000000U, kMax - 1000, kMax - 500, kMax - 1, kMax}) {
+    LeafReservoirs reservoirs = seen_often(context, kCapacity, num_seen);
+    const LeafReservoirsView view = reservoirs.view();
+    INFO(num_seen);
+    REQUIRE(view.num_seen[0] == (num_seen < kMax - 1000 ? num_seen + 1000 : kMax));
+    REQUIRE(view.num_stored(0) == kCapacity);
+    REQUIRE(view.num_changed[0] == 0);  // the chance of any of 1000 being kept is 1 in 67,000; whether one is depends on the seed alone
+    for (int i = 0; i < kCapacity; ++i) REQUIRE(number_of(view.point(0, i)) == static_cast<std::uint32_t>(i));
+  }
+}
+
 TEST_CASE("LeafReservoirs: clear forgets everything") {
   Random random = test::test_random();
   const Context context = context_of(1);

@@ -151,19 +151,25 @@ ForestRelocaliser::~ForestRelocaliser() = default;
 ForestRelocaliser::ForestRelocaliser(ForestRelocaliser&&) noexcept = default;
 ForestRelocaliser& ForestRelocaliser::operator=(ForestRelocaliser&&) noexcept = default;
 ForestRelocaliser::ForestRelocaliser(const ForestRelocaliser& other)
-    : Relocaliser(other), Persistent(other), state_(std::make_unique<State>(*other.state_)) {}
+    : Relocaliser(other), Persistent(other), state_(std::make_unique<State>(other.state())) {}
 ForestRelocaliser& ForestRelocaliser::operator=(const ForestRelocaliser& other) {
-  state_ = std::make_unique<State>(*other.state_);
+  state_ = std::make_unique<State>(other.state());
   return *this;
 }
 
-const Forest& ForestRelocaliser::forest() const { return state_->forest; }
-const ForestRelocaliserSettings& ForestRelocaliser::settings() const { return state_->settings; }
-float ForestRelocaliser::acceptance_threshold() const { return state_->settings.acceptance_threshold; }
-std::size_t ForestRelocaliser::state_bytes() const { return state_->reservoirs.state_bytes() + state_->modes.state_bytes(); }
+ForestRelocaliser::State& ForestRelocaliser::state() const {
+  const bool was_moved_from = state_ == nullptr;
+  FOOTHOLD_EXPECTS(!was_moved_from);
+  return *state_;
+}
+
+const Forest& ForestRelocaliser::forest() const { return state().forest; }
+const ForestRelocaliserSettings& ForestRelocaliser::settings() const { return state().settings; }
+float ForestRelocaliser::acceptance_threshold() const { return state().settings.acceptance_threshold; }
+std::size_t ForestRelocaliser::state_bytes() const { return state().reservoirs.state_bytes() + state().modes.state_bytes(); }
 
 void ForestRelocaliser::train(const Frame& frame, const SE3& world_from_camera) {
-  State& s = *state_;
+  State& s = state();
   expect_usable(s.context, frame);
   FOOTHOLD_EXPECTS(is_rigid(world_from_camera, kRigidTolerance));
   if (!has_blocks(frame, s.settings.features)) return;
@@ -184,25 +190,25 @@ void ForestRelocaliser::train(const Frame& frame, const SE3& world_from_camera) 
 }
 
 void ForestRelocaliser::update() {
-  const ScopedStage stage(state_->context, "update/cluster");
-  state_->modes.update(state_->context, state_->reservoirs);
+  const ScopedStage stage(state().context, "update/cluster");
+  state().modes.update(state().context, state().reservoirs);
 }
 
-std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) { return state_->answer(frame, nullptr); }
+std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) { return state().answer(frame, nullptr); }
 
 Explanation ForestRelocaliser::explain(const Frame& frame) {
   Explanation explanation;
-  state_->answer(frame, &explanation);
+  state().answer(frame, &explanation);
   return explanation;
 }
 
 void ForestRelocaliser::reset() {
-  state_->reservoirs.clear();
-  state_->modes.clear();
+  state().reservoirs.clear();
+  state().modes.clear();
 }
 
 void ForestRelocaliser::save(std::ostream& stream) const {
-  const State& s = *state_;
+  const State& s = state();
   write_value(stream, kSceneMagic);
   write_value(stream, kSceneVersion);
   write_value(stream, s.forest.fingerprint());
@@ -219,7 +225,7 @@ void ForestRelocaliser::save(std::ostream& stream) const {
 }
 
 void ForestRelocaliser::load(std::istream& stream) {
-  State& s = *state_;
+  State& s = state();
   if (read_value<std::uint64_t>(stream, "magic") != kSceneMagic) throw FileError("the saved scene is not one of a forest relocaliser");
   const auto version = read_value<std::uint32_t>(stream, "version");
   if (version != kSceneVersion) {

@@ -14,13 +14,12 @@ extern template struct FeatureAlgorithms<CudaExecutor>;
 void FeatureImage::compute(const Context& context, const Frame& frame, int downscale) {
   constexpr float kMillimetresPerMetre = 1000.0F;
   downscale_ = downscale;
-  view_.width = frame.depth.width / downscale;
-  view_.height = frame.depth.height / downscale;
-  view_.offset_scale_px_mm = frame.calibration.depth.fx / kReferenceFocalPx / static_cast<float>(downscale) * kMillimetresPerMetre;
-  pixels_.resize(static_cast<std::size_t>(view_.width) * static_cast<std::size_t>(view_.height));
-  view_.pixels = pixels_.data();
+  width_ = frame.depth.width / downscale;
+  height_ = frame.depth.height / downscale;
+  offset_scale_px_mm_ = frame.calibration.depth.fx / kReferenceFocalPx / static_cast<float>(downscale) * kMillimetresPerMetre;
+  pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   dispatch(context,
-           [&](auto on) { FeatureAlgorithms<typename decltype(on)::Executor>::pack(context, frame, downscale, view_, pixels_.data()); });
+           [&](auto on) { FeatureAlgorithms<typename decltype(on)::Executor>::pack(context, frame, downscale, view(), pixels_.data()); });
 }
 
 void find_leaves(const Context& context, const FeatureImage& image, const ForestView& forest, Span<const SampledPixel> pixels,

@@ -42,7 +42,7 @@ FOOTHOLD_HD constexpr int reservoir_blocks_for(int num_points) { return (num_poi
 /// What kernels see of the reservoirs.
 struct LeafReservoirsView {
   BlockListsView<ReservoirBlock, 1> blocks;
-  std::uint32_t* num_seen = nullptr;     ///< per leaf: points offered so far
+  std::uint32_t* num_seen = nullptr;     ///< per leaf: points offered so far, at most kMaxSeen
   std::uint32_t* num_changed = nullptr;  ///< per leaf: points written since the leaf was last clustered
   int num_leaves = 0;
   int capacity = 0;

@@ -107,6 +107,9 @@ struct CountNewBlocks {
   }
 };
 
+/// A leaf that was offered this many points takes no more. The next would be kept with a chance of capacity / 2^32.
+inline constexpr std::uint32_t kMaxSeen = ~std::uint32_t{0};
+
 /// Step 2: one worker per touched leaf adds its examples in frame order by Vitter's algorithm R.
 struct InsertRun {
   LeafReservoirsView reservoirs;
@@ -124,12 +127,12 @@ struct InsertRun {
     std::uint32_t seen = reservoirs.num_seen[leaf];
     std::uint32_t written = 0;
     const std::uint64_t leaf_seed = derive_seed(reservoirs.seed, leaf);
-    for (std::size_t k = i, end = end_of_run(keys, i); k < end; ++k, ++seen) {
-      auto position = static_cast<int>(seen);
-      if (seen >= static_cast<std::uint32_t>(reservoirs.capacity)) {
-        position = static_cast<int>(Random(leaf_seed, seen).below(seen + 1));
-        if (position >= reservoirs.capacity) continue;
-      } else if (reservoir_blocks_for(position + 1) > owned) {
+    const auto capacity = static_cast<std::uint32_t>(reservoirs.capacity);
+    for (std::size_t k = i, end = end_of_run(keys, i); k < end && seen < kMaxSeen; ++k, ++seen) {
+      const std::uint32_t drawn = seen < capacity ? seen : Random(leaf_seed, seen).below(seen + 1);
+      if (drawn >= capacity) continue;
+      const auto position = static_cast<int>(drawn);
+      if (seen < capacity && reservoir_blocks_for(position + 1) > owned) {
         reservoirs.blocks.own(leaf, owned++, next_block++);
         reservoirs.block_of(leaf, position) = {};  // so that saved scenes hold nothing of what the memory held before
       }

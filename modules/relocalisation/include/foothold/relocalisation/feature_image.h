@@ -43,20 +43,22 @@ constexpr int scaled_to_width(int size_px, int width) {
   return scaled > 1 ? scaled : 1;
 }
 
-/// Owns the packed image of the current frame.
+/// Owns the packed image of the current frame. Copies own their pixels.
 class FeatureImage {
  public:
   explicit FeatureImage(const Context& context) : pixels_(context.memory()) {}
 
   /// Averages blocks of downscale x downscale pixels of a frame in the context's memory.
   void compute(const Context& context, const Frame& frame, int downscale);
-  FeatureImageView view() const { return view_; }
+  FeatureImageView view() const { return {pixels_.data(), width_, height_, offset_scale_px_mm_}; }
   int downscale() const { return downscale_; }
 
  private:
   Array<FeaturePixel> pixels_;
-  FeatureImageView view_;
+  int width_ = 0;
+  int height_ = 0;
   int downscale_ = 1;
+  float offset_scale_px_mm_ = 0.0F;
 };
 
 /// The index nearest to i in [0, size).

@@ -30,6 +30,7 @@ class ForestRelocaliser final : public Relocaliser, public Persistent {
   /// @throws InvalidSettings; DeviceError if the context's device fails.
   explicit ForestRelocaliser(const Context& context, Forest forest = default_forest(), const ForestRelocaliserSettings& settings = {});
   ~ForestRelocaliser() override;
+  /// What was moved from may only be assigned to or destroyed; all else is a ContractViolation.
   ForestRelocaliser(ForestRelocaliser&&) noexcept;
   ForestRelocaliser& operator=(ForestRelocaliser&&) noexcept;
   /// Copies the scene too, for experiments that branch off.
@@ -56,6 +57,7 @@ class ForestRelocaliser final : public Relocaliser, public Persistent {
 
  private:
   struct State;
+  State& state() const;  ///< @throws ContractViolation if it was moved from
   std::unique_ptr<State> state_;
 };
 
