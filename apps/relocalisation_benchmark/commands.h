@@ -30,5 +30,7 @@ Command add_confidence_command(CLI::App& app);
 Command add_failures_command(CLI::App& app);
 /// "kidnap": the closed loop of tracker, relocaliser and map.
 Command add_kidnap_command(CLI::App& app);
+/// "scale": recall, time and memory against the number of places learnt in one world.
+Command add_scale_command(CLI::App& app);
 
 }  // namespace foothold::benchmark

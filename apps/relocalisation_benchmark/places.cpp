@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "places.h"
+
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <limits>
+#include <mutex>
+#include <thread>
+
+#include "common/progress_bar.h"
+#include "foothold/base/contract.h"
+#include "foothold/base/error.h"
+#include "foothold/io/sequence_player.h"
+#include "foothold/synthetic/synthetic_sequence.h"
+
+namespace foothold::benchmark {
+namespace {
+
+/// Frames of one path of a room. The room is built when they are asked for: building thousands takes long.
+EvaluationInput path_input(SyntheticSequenceSettings settings, const std::string& trajectory, std::vector<int> indices) {
+  settings.trajectory = trajectory;
+  settings.frames = indices.back() + 1;
+  const auto open = [settings, indices]() -> std::unique_ptr<FrameSource> {
+    ContextOptions one_thread;
+    one_thread.num_threads = 1;
+    return std::make_unique<SequencePlayer>(make_synthetic_sequence(settings, Context(one_thread)), indices);
+  };
+  return {synthetic_spec(settings), static_cast<int>(indices.size()), open};
+}
+
+std::vector<int> spread_indices(int count, int end) {
+  std::vector<int> indices;
+  for (int i = 0; i < count; ++i) indices.push_back(static_cast<int>(static_cast<std::int64_t>(i) * end / count));
+  return indices;
+}
+
+/// Inputs to read into one list of a place.
+struct Job {
+  const std::vector<EvaluationInput>* inputs = nullptr;
+  FrameList* frames = nullptr;
+  Eigen::Vector3f origin_world;
+};
+
+void load(const Job& job) {
+  for (const EvaluationInput& input : *job.inputs) {
+    const std::unique_ptr<FrameSource> source = input.open();
+    while (true) {
+      if (apps::interrupted()) throw Interrupted{};
+      auto frame = std::make_shared<RgbdFrame>();
+      const ReadStatus status = source->read(*frame);
+      if (status == ReadStatus::kTimedOut) continue;
+      if (status == ReadStatus::kEnd) break;
+      if (!frame->world_from_camera.has_value())
+        throw FileError(input.name + ", frame " + std::to_string(frame->index) + ": has no true pose; expected one for every frame");
+      frame->world_from_camera->translation += job.origin_world;
+      job.frames->push_back(std::move(frame));
+    }
+  }
+  if (job.frames->empty()) throw FileError(job.inputs->front().name + ": has no frames; expected at least one");
+}
+
+/// Runs jobs on several threads; the first exception ends all.
+void load_all(const std::vector<Job>& jobs, int num_threads) {
+  apps::ProgressBar bar("frames into memory", static_cast<std::int64_t>(jobs.size()));
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < jobs.size(); i = next++) {
+      try {
+        load(jobs[i]);
+        const std::lock_guard<std::mutex> lock(mutex);
+        bar.advance();
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (failure == nullptr) failure = std::current_exception();
+        next = jobs.size();
+      }
+    }
+  };
+  std::vector<std::thread> threads;
+  for (int i = 0; i < num_threads; ++i) threads.emplace_back(work);
+  for (std::thread& thread : threads) thread.join();
+  if (failure != nullptr) std::rethrow_exception(failure);
+}
+
+}  // namespace
+
+Scene room_scene(const std::string& spec, const RoomViews& views) {
+  FOOTHOLD_EXPECTS(views.num_training > 0 && views.num_tests > 0 && views.stride > 0);
+  SyntheticSequenceSettings settings = parse_synthetic_spec(spec);
+  settings.width = views.width;
+  settings.height = views.height;
+  const int end = views.num_training * views.stride;
+  Scene scene;
+  scene.name = settings.room;
+  scene.training = {path_input(settings, "train", spread_indices(views.num_training, end))};
+  scene.tests = {path_input(settings, "test", spread_indices(views.num_tests, end))};
+  return scene;
+}
+
+Eigen::Vector2i grid_field(int k) {
+  const int shell = static_cast<int>(std::sqrt(static_cast<double>(k)));
+  const int along = k - shell * shell;
+  return along <= shell ? Eigen::Vector2i(shell, along) : Eigen::Vector2i(2 * shell - along, shell);
+}
+
+std::vector<Place> load_places(const std::vector<Scene>& scenes, float spacing_m, int num_tested, int num_threads) {
+  std::vector<Place> places(scenes.size());
+  std::vector<Job> jobs;
+  for (std::size_t i = 0; i < scenes.size(); ++i) {
+    const Eigen::Vector2f field = grid_field(static_cast<int>(i)).cast<float>() * spacing_m;
+    places[i].name = scenes[i].name;
+    places[i].origin_world = {field.x(), field.y(), 0.0F};
+    jobs.push_back({&scenes[i].training, &places[i].training, places[i].origin_world});
+    if (i < static_cast<std::size_t>(num_tested)) jobs.push_back({&scenes[i].tests, &places[i].tests, places[i].origin_world});
+  }
+  load_all(jobs, num_threads > 0 ? num_threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  return places;
+}
+
+std::size_t nearest_place(const std::vector<Place>& places, const Eigen::Vector3f& position_world) {
+  std::size_t nearest = 0;
+  float nearest_m2 = std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    for (const auto& frame : places[i].training) {
+      const float distance_m2 = (frame->world_from_camera->translation - position_world).squaredNorm();
+      if (distance_m2 >= nearest_m2) continue;
+      nearest_m2 = distance_m2;
+      nearest = i;
+    }
+  }
+  return nearest;
+}
+
+}  // namespace foothold::benchmark

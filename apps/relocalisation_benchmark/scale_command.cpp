@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "commands.h"
+#include "foothold/base/error.h"
+#include "foothold/evaluation/train_test.h"
+#include "growth.h"
+#include "outputs.h"
+#include "places.h"
+#include "scene_tables.h"
+
+namespace foothold::benchmark {
+namespace {
+
+/// Rooms that no shipped forest has seen.
+constexpr int kFirstRoom = 100;
+
+struct ScaleOptions {
+  SceneOptions scenes;
+  std::vector<int> amounts = {1, 2, 4, 8, 16, 24};
+  std::string size = "320x240";
+  RoomViews views;
+  int first_room = kFirstRoom;
+  int num_tested = 4;
+  float spacing_m = 9.0F;
+};
+
+/// "320x240"
+void parse_size(const std::string& text, RoomViews& views) {
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &views.width, &views.height, &rest) != 2)
+    throw InvalidSettings("--size: got '" + text + "', expected WIDTHxHEIGHT, such as 320x240");
+}
+
+/// The scenes to learn, one after another: the user's recordings, or as many rooms as the largest amount asks for.
+std::vector<Scene> scenes_to_learn(ScaleOptions options) {
+  const int most = *std::max_element(options.amounts.begin(), options.amounts.end());
+  if (!options.scenes.scenes.empty()) {
+    const std::vector<Scene> scenes = open_scenes(options.scenes);
+    if (most > static_cast<int>(scenes.size()))
+      throw InvalidSettings("--rooms: got " + std::to_string(most) + ", expected at most the " + std::to_string(scenes.size()) +
+                            " that --scene names");
+    return scenes;
+  }
+  parse_size(options.size, options.views);
+  std::vector<Scene> scenes;
+  for (int i = 0; i < most; ++i)
+    scenes.push_back(room_scene("synthetic:training-" + std::to_string(options.first_room + i), options.views));
+  return scenes;
+}
+
+BeliefCounts count_beliefs(const RunLog& log, const std::vector<Place>& places) {
+  BeliefCounts counts;
+  for (const TestRecord& test : log.tests) {
+    if (!test.best.has_value() || test.best->confidence < log.acceptance_threshold) {
+      ++counts.num_unsure;
+    } else if (test.within(kWrongThreshold)) {
+      ++counts.num_right;
+    } else {
+      const std::size_t shown = static_cast<std::size_t>(test.input_index);
+      const bool here = nearest_place(places, test.best->world_from_camera.translation) == shown;
+      ++(here ? counts.num_wrong_here : counts.num_wrong_place);
+    }
+  }
+  return counts;
+}
+
+/// The durations of a part of the training, [begin, end) in frames.
+Spread train_spread(const RunLog& log, std::size_t begin, std::size_t end) {
+  const auto& ms = log.train.wall_ms;
+  return spread_of({ms.begin() + static_cast<std::ptrdiff_t>(begin), ms.begin() + static_cast<std::ptrdiff_t>(end)});
+}
+
+/// Learns the first places from nothing, and tests those of them that have tests.
+GrowthPoint run_amount(const ScaleOptions& options, const Method& method, const MethodInputs& inputs, const std::vector<Place>& all,
+                       int amount) {
+  const std::vector<Place> places(all.begin(), all.begin() + amount);
+  std::vector<EvaluationInput> training;
+  std::vector<EvaluationInput> tests;
+  for (const Place& place : places) {
+    training.push_back(memory_input(place.name, place.training));
+    if (!place.tests.empty()) tests.push_back(memory_input(place.name, place.tests));
+  }
+  const Protocol protocol = [&](Relocaliser& relocaliser, const ProtocolOptions& protocol_options) {
+    return run_train_test(relocaliser, training, tests, options.scenes.num_settling_updates, protocol_options);
+  };
+  GrowthPoint point;
+  point.amount = amount;
+  const std::string label = method.name + ", " + std::to_string(amount) + (amount == 1 ? " place" : " places");
+  point.result = run_method(method, inputs, options.scenes.common, protocol, label);
+  point.beliefs = count_beliefs(point.result.log, places);
+  const std::size_t num_trained = point.result.log.train.wall_ms.size();
+  point.first_train_ms = train_spread(point.result.log, 0, places.front().training.size());
+  point.last_train_ms = train_spread(point.result.log, num_trained - places.back().training.size(), num_trained);
+  return point;
+}
+
+Json places_json(const std::vector<Place>& places) {
+  Json json = Json::array();
+  for (const Place& place : places) {
+    json.push_back({{"name", place.name},
+                    {"origin_m", {place.origin_world.x(), place.origin_world.y(), place.origin_world.z()}},
+                    {"num_training", place.training.size()},
+                    {"num_tests", place.tests.size()}});
+  }
+  return json;
+}
+
+std::vector<std::pair<std::string, std::string>> describe(const ScaleOptions& options) {
+  std::vector<std::pair<std::string, std::string>> described = describe_scene_options(options.scenes);
+  described.emplace_back("spacing_m", csv_number(static_cast<double>(options.spacing_m)));
+  described.emplace_back("tested_places", std::to_string(options.num_tested));
+  if (!options.scenes.scenes.empty()) return described;
+  described.emplace_back("first_room", std::to_string(options.first_room));
+  described.emplace_back("frames", std::to_string(options.views.num_training));
+  described.emplace_back("test_frames", std::to_string(options.views.num_tests));
+  described.emplace_back("room_stride", std::to_string(options.views.stride));
+  described.emplace_back("size", options.size);
+  return described;
+}
+
+int run_scale(ScaleOptions options) {
+  check_outputs(options.scenes.common);
+  const std::vector<Method> methods = find_methods(options.scenes.common.methods);
+  const MethodInputs inputs = method_inputs(options.scenes.common, methods);
+  const std::vector<Scene> scenes = scenes_to_learn(options);
+  std::vector<GrowthCurve> curves;
+  std::vector<Place> places;
+  try {
+    places = load_places(scenes, options.spacing_m, options.num_tested, options.scenes.common.device.num_threads);
+    for (const Method& method : methods) {
+      curves.push_back({method.name, {}});
+      for (const int amount : options.amounts) {
+        curves.back().points.push_back(run_amount(options, method, inputs, places, amount));
+      }
+    }
+  } catch (const Interrupted&) {
+    return apps::kInterrupted;
+  }
+  std::printf("Places %g m apart in one world, the first %d of them tested\n\n%s", static_cast<double>(options.spacing_m),
+              std::min(options.num_tested, static_cast<int>(places.size())), growth_table(curves, "places").c_str());
+  Json json = document_head("scale", describe(options));
+  json["places"] = places_json(places);
+  json["methods"] = growth_json(curves, "places");
+  std::printf("%s", write_documents(options.scenes.common, json, growth_csv(curves, "places")).c_str());
+  return apps::kSuccess;
+}
+
+void add_room_options(CLI::App& command, ScaleOptions& options) {
+  command.add_option("--rooms", options.amounts, "How many places to learn, one run for each number")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command.add_option("--first-room", options.first_room, "Rooms are synthetic:training-K from this K on")
+      ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  command.add_option("--frames", options.views.num_training, "Frames to learn in each room")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command.add_option("--test-frames", options.views.num_tests, "Frames to test in each tested room, on another path")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command.add_option("--room-stride", options.views.stride, "Learn every Nth frame of a room's path at 30 frames a second")
+      ->check(CLI::Range(1, 1000))
+      ->capture_default_str();
+  command.add_option("--size", options.size, "Size of the rooms' images")->type_name("WIDTHxHEIGHT")->capture_default_str();
+}
+
+}  // namespace
+
+Command add_scale_command(CLI::App& app) {
+  const auto options = std::make_shared<ScaleOptions>();
+  CLI::App* command = app.add_subcommand("scale", "Recall, time and memory against the number of places learnt in one world");
+  add_scene_options(*command, options->scenes);
+  command->get_option("--scene")->required(false);
+  add_room_options(*command, *options);
+  command->add_option("--tested", options->num_tested, "How many places to test, the first ones")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  command->add_option("--spacing", options->spacing_m, "Distance between neighbouring places [m]")
+      ->check(CLI::Range(0.0, 10000.0))
+      ->capture_default_str();
+  add_forest_option(*command, options->scenes.common);
+  add_experiment_options(*command, options->scenes.common);
+  return {command, [options] { return run_scale(*options); }};
+}
+
+}  // namespace foothold::benchmark
