@@ -17,15 +17,18 @@ if(FOOTHOLD_SANITIZE)
   target_link_options(foothold_flags INTERFACE -fsanitize=${FOOTHOLD_SANITIZE})
 endif()
 
-# foothold_module(<name> [SOURCES ...] [CUDA_SOURCES ...] [PUBLIC ...] [PRIVATE ...])
+# foothold_module(<name> [SOURCES ...] [DISPATCHING_SOURCES ...] [CUDA_SOURCES ...] [PUBLIC ...] [PRIVATE ...])
 #
 # A library foothold_<name>, alias foothold::<name>, with its public headers in include/ and its private ones in src/.
-# CUDA_SOURCES are added where the build has CUDA. A module without sources is header-only.
+# DISPATCHING_SOURCES choose between devices; the library's property of that name holds their paths, for tests that compile them for a device
+# of their own. CUDA_SOURCES are added where the build has CUDA. A module without sources is header-only.
 function(foothold_module name)
-  cmake_parse_arguments(arg "" "" "SOURCES;CUDA_SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;DISPATCHING_SOURCES;CUDA_SOURCES;PUBLIC;PRIVATE" ${ARGN})
   set(target foothold_${name})
   if(arg_SOURCES)
-    add_library(${target} ${arg_SOURCES})
+    add_library(${target} ${arg_SOURCES} ${arg_DISPATCHING_SOURCES})
+    list(TRANSFORM arg_DISPATCHING_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+    set_target_properties(${target} PROPERTIES DISPATCHING_SOURCES "${arg_DISPATCHING_SOURCES}")
     set(scope PUBLIC)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:foothold_flags>)
     target_include_directories(${target} PRIVATE src)

@@ -4,7 +4,7 @@
 #include <sstream>
 #include <vector>
 
-#include "features/feature_image.h"
+#include "features/leaf_lookup.h"
 #include "foothold/api/frame_uploader.h"
 #include "foothold/base/random.h"
 #include "foothold/relocalisation/forest_relocaliser.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "features/feature_image.h"
+#include "features/leaf_lookup.h"
 
 #include <cmath>
 #include <cstring>

@@ -61,10 +61,9 @@ AlignmentState align(const std::vector<RememberedPoint>& points, const SE3& star
   const std::vector<FeaturePixel> pixels = corner();
   const SurfaceEstimator estimator{{pixels.data(), kWidth, kHeight, 1.0F}, kCamera, 2};
   AlignmentState state{start, 1.0F, 0};
-  NoScratch scratch;
   for (int i = 0; i < num_steps; ++i) {
     const AlignByProjection<CpuExecutor> step{estimator, points.data(), static_cast<int>(points.size()), 0.1F, &state};
-    step(CpuTeam{}, scratch, 0);
+    step(CpuTeam{}, 0);
   }
   return state;
 }

@@ -29,13 +29,13 @@ std::vector<FeaturePixel> wall() {
 
 RememberedPoint point_at(const Eigen::Vector3f& p, std::uint8_t grey = 100) { return {{p.x(), p.y(), p.z()}, {grey, grey, grey}, 1}; }
 
-SceneEvidence judge(const std::vector<FeaturePixel>& pixels, const std::vector<RememberedPoint>& points, const SE3& scene_from_camera) {
+SceneEvidence judge(const std::vector<FeaturePixel>& pixels, const std::vector<RememberedPoint>& points, SE3 scene_from_camera) {
   const FeatureImageView image{pixels.data(), kWidth, kHeight, 1.0F};
-  const std::uint64_t order = 0;
+  std::uint64_t order = 0;
   SceneEvidence evidence{-1.0F, -1.0F, -1.0F};
-  NoScratch scratch;
-  JudgeCandidates<CpuExecutor>{image,  kCamera,  points.data(), static_cast<int>(points.size()), kMaxColourDifference, &scene_from_camera,
-                               &order, &evidence}(CpuTeam{}, scratch, 0);
+  const HypothesesView hypotheses{&scene_from_camera, nullptr, &order};
+  const auto num_points = static_cast<int>(points.size());
+  JudgeCandidates<CpuExecutor>{image, kCamera, points.data(), num_points, kMaxColourDifference, hypotheses, &evidence}(CpuTeam{}, 0);
   return evidence;
 }
 
@@ -96,9 +96,9 @@ TEST_CASE("JudgeCandidates: depends on where the camera is, not on where the sce
 TEST_CASE("MakeEvidenceKey: believed candidates first, equal ones as they were, failed ones last") {
   constexpr float kFailed = std::numeric_limits<float>::infinity();
   const std::vector<SceneEvidence> evidence = {{100, 0, 0}, {100, 0, 90}, {100, 60, 30}, {100, 0, 90}, {100, 0, 100}, {0, 0, 0}};
-  const std::vector<float> energies = {1, 2, 3, 4, kFailed, 5};
+  std::vector<float> energies = {1, 2, 3, 4, kFailed, 5};
   std::vector<std::uint64_t> order = {0, 3, 2, 1, 4, 5};
-  const MakeEvidenceKey make_key{evidence.data(), energies.data(), order.data()};
+  const MakeEvidenceKey make_key{evidence.data(), HypothesesView{nullptr, energies.data(), order.data()}};
   for (std::size_t slot = 0; slot < order.size(); ++slot) make_key(slot);
   std::stable_sort(order.begin(), order.end(), [](std::uint64_t a, std::uint64_t b) { return (a >> 32U) < (b >> 32U); });
   std::vector<std::uint32_t> hypotheses;

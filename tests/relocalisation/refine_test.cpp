@@ -60,11 +60,11 @@ struct Problem {
 
   /// Fixes modes and refines, as pre-emptive RANSAC does with a single hypothesis.
   SE3 refine(SE3 pose, int num_iterations, float radius_m = 0.5F) {
-    const std::uint64_t order = 0;
+    std::uint64_t order = 0;
+    const HypothesesView hypotheses{&pose, nullptr, &order};
     nearest.assign(count * kLanes, kNoMode);
-    NoScratch scratch;
-    AssignModes<CpuExecutor>{view(), &pose, &order, 1, count, radius_m, nearest.data()}(CpuTeam{}, scratch, 0);
-    RefineHypothesis<CpuExecutor>{view(), &order, count, nearest.data(), num_iterations, &pose}(CpuTeam{}, scratch, 0);
+    AssignModes<CpuExecutor>{view(), hypotheses, 1, count, radius_m, nearest.data()}(CpuTeam{}, 0);
+    RefineHypothesis<CpuExecutor>{view(), hypotheses, count, nearest.data(), num_iterations}(CpuTeam{}, 0);
     return pose;
   }
 

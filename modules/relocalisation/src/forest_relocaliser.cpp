@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "clustering/leaf_modes.h"
-#include "features/feature_image.h"
 #include "foothold/base/binary_stream.h"
 #include "foothold/base/checksum.h"
 #include "foothold/base/contract.h"

@@ -5,12 +5,14 @@
 
 #include "clustering/leaf_modes_kernels.h"
 #include "features/feature_image_kernels.h"
+#include "features/leaf_lookup_kernels.h"
 #include "pose/pose_estimator_kernels.h"
 #include "reservoirs/leaf_reservoirs_kernels.h"
 
 namespace foothold {
 
-template struct FeatureAlgorithms<CudaExecutor>;
+template struct FeatureImageAlgorithms<CudaExecutor>;
+template struct LeafLookupAlgorithms<CudaExecutor>;
 template struct ReservoirAlgorithms<CudaExecutor>;
 template struct ClusteringAlgorithms<CudaExecutor>;
 template struct PoseAlgorithms<CudaExecutor>;

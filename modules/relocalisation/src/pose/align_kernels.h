@@ -4,102 +4,28 @@
 /// a reconstructed model, which a relocaliser does not have. Reference: point-to-plane ICP [Chen1992]; local averages [Levin2003].
 #pragma once
 
-#include "pose/refine_kernels.h"
+#include "pose/project_kernels.h"
+#include "pose/surface_kernels.h"
 #include "reservoirs/leaf_reservoirs_kernels.h"
 
 namespace foothold {
 
-FOOTHOLD_HD inline Eigen::Vector3f point_of(const SurfaceSample& surface) {
-  return {surface.point_camera[0], surface.point_camera[1], surface.point_camera[2]};
-}
-FOOTHOLD_HD inline Eigen::Vector3f normal_of(const SurfaceSample& surface) {
-  return {surface.normal_camera[0], surface.normal_camera[1], surface.normal_camera[2]};
-}
-FOOTHOLD_HD inline bool has_normal(const SurfaceSample& surface) { return normal_of(surface).squaredNorm() > 0.0F; }
-
-/// Estimates surfaces from the averaged image.
-struct SurfaceEstimator {
-  FeatureImageView image;
-  Intrinsics intrinsics;  ///< of the averaged image
-  int reach;              ///< neighbours' distance [px of the averaged image]
-
-  /// The surface at a pixel of the averaged image; without a normal where it is broken or unmeasured, or at the image's border.
-  FOOTHOLD_HD SurfaceSample surface_at(int u, int v) const {
-    SurfaceSample surface{};
-    Eigen::Vector3f point;
-    Eigen::Vector3f left;
-    Eigen::Vector3f right;
-    Eigen::Vector3f above;
-    Eigen::Vector3f below;
-    if (point_at(u, v, point) && point_at(u - reach, v, left) && point_at(u + reach, v, right) && point_at(u, v - reach, above) &&
-        point_at(u, v + reach, below)) {
-      const Eigen::Vector3f normal = cross_product(below - above, right - left);
-      const float length = normal.norm();
-      const float bend_m = kMaxBend * point.z() * point.z();
-      const bool smooth =
-          std::fabs(left.z() + right.z() - 2.0F * point.z()) < bend_m && std::fabs(above.z() + below.z() - 2.0F * point.z()) < bend_m;
-      if (length > 0.0F && smooth) {
-        for (int k = 0; k < 3; ++k) surface.point_camera[k] = point[k];
-        for (int k = 0; k < 3; ++k) surface.normal_camera[k] = normal[k] / length;
-      }
-    }
-    return surface;
-  }
-
- private:
-  static constexpr float kMaxBend = 0.01F;  ///< second difference of depth at one metre; sensor noise grows with its square [m]
-
-  FOOTHOLD_HD bool point_at(int u, int v, Eigen::Vector3f& point) const {
-    if (u < 0 || v < 0 || u >= image.width || v >= image.height) return false;
-    const int depth_mm = image.pixels[v * image.width + u].depth_mm();
-    if (depth_mm <= 0) return false;
-    point = intrinsics.back_project(static_cast<float>(u), static_cast<float>(v), static_cast<float>(depth_mm) * 1e-3F);
-    return true;
-  }
-};
-
-/// Estimates each sample's surface.
-struct EstimateSurface {
-  SurfaceEstimator estimator;
-  int downscale;
-  const SampledPixel* sampled;
-  SurfaceSample* surfaces;
-
-  FOOTHOLD_HD void operator()(std::size_t i) const {
-    surfaces[i] = sampled[i].depth_m > 0.0F ? estimator.surface_at(sampled[i].u / downscale, sampled[i].v / downscale) : SurfaceSample{};
-  }
-};
-
-/// Adds to the sums of solve_damped(): a point q of a surface with normal n is to move by residual_m along n; all in the scene's frame.
-FOOTHOLD_HD FOOTHOLD_INLINE void add_point_to_plane(const Eigen::Vector3f& q, const Eigen::Vector3f& n, float residual_m, float weight,
-                                                    float* sums) {
-  const Eigen::Vector3f moment = cross_product(q, n);
-  const float j[6] = {moment.x(), moment.y(), moment.z(), n.x(), n.y(), n.z()};
-  int next = 0;
-  for (int a = 0; a < 6; ++a) {
-    for (int b = a; b < 6; ++b) sums[next++] += weight * j[a] * j[b];
-  }
-  for (int a = 0; a < 6; ++a) sums[kNumHessian + a] -= weight * j[a] * residual_m;
-}
-
 /// Starts the alignment of the best candidate.
 struct BeginAlignment {
-  const std::uint64_t* order;
-  const SE3* hypotheses;
+  HypothesesView hypotheses;
   AlignmentState* state;
 
-  FOOTHOLD_HD void operator()(std::size_t) const { *state = {hypotheses[hypothesis_of(order[0])], 1.0F, 0}; }
+  FOOTHOLD_HD void operator()(std::size_t) const { *state = {hypotheses.pose_at(0), 1.0F, 0}; }
 };
 
 /// Puts the aligned pose back in its place.
 struct EndAlignment {
-  const std::uint64_t* order;
   const AlignmentState* state;
-  SE3* hypotheses;
+  HypothesesView hypotheses;
   float* misfits;  ///< per slot
 
   FOOTHOLD_HD void operator()(std::size_t) const {
-    hypotheses[hypothesis_of(order[0])] = state->scene_from_camera;
+    hypotheses.pose_at(0) = state->scene_from_camera;
     misfits[0] = state->misfit;
   }
 };
@@ -168,7 +94,7 @@ struct AlignWithPoints {
   float radius_m;
   AlignmentState* state;
 
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t) const {
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
     if (state->ended != 0) return;
     const SE3 pose = state->scene_from_camera;
     float sums[kNumAlignmentSums] = {};
@@ -211,6 +137,56 @@ struct AlignWithPoints {
     const float distance = std::fabs(residual_m) / radius_m;
     sums[kFit] += distance < 1.0F ? 1.0F - distance : 0.0F;
   }
+};
+
+/// Estimates the surfaces of the sampled pixels that are aligned.
+template <class Executor>
+void estimate_surfaces(const Executor& executor, const PoseQuery& query, const CorrespondencePool& pool, Alignment& alignment) {
+  executor.for_each(alignment.surfaces.size(),
+                    EstimateSurface{surface_estimator(query), query.image.downscale(), pool.sampled.data(), alignment.surfaces.data()});
+}
+
+/// Aligns the best hypothesis, first with points of the whole scene where they project into the frame, then, more finely, with the points
+/// that its leaves remember. @pre The pool was filled with this forest.
+template <class Executor>
+class Aligner {
+ public:
+  Aligner(const Context& context, const PoseQuery& query, const ForestView& forest, const PoseEstimatorSettings& settings)
+      : executor_(context), query_(query), num_trees_(forest.num_trees), settings_(settings) {}
+
+  void run(const CorrespondencePool& pool, const Ranking& ranking, Hypotheses& hypotheses, Alignment& alignment) const {
+    AlignmentState* const state = alignment.state.data();
+    executor_.for_each(1, BeginAlignment{hypotheses.view(), state});
+    for (int i = 0; i < settings_.projection_iterations && settings_.projection_points > 0; ++i) project(i, ranking, state);
+    for (int i = 0; i < settings_.alignment_iterations; ++i) approach(i, pool, alignment);
+    executor_.for_each(1, EndAlignment{state, hypotheses.view(), alignment.misfits.data()});
+  }
+
+ private:
+  void project(int step, const Ranking& ranking, AlignmentState* state) const {
+    const float distance_m = settings_.projection_distance_m * (2 * step < settings_.projection_iterations ? 2.0F : 1.0F);
+    executor_.for_each_team(
+        1, AlignByProjection<Executor>{surface_estimator(query_), ranking.points.data(), settings_.projection_points, distance_m, state});
+  }
+
+  void approach(int step, const CorrespondencePool& pool, Alignment& alignment) const {
+    const auto num_samples = static_cast<int>(alignment.surfaces.size());
+    const int num_used = 2 * step < settings_.alignment_iterations ? num_samples / 3 : num_samples;  // few samples suffice at first
+    const float progress =
+        settings_.alignment_iterations > 1 ? static_cast<float>(step) / static_cast<float>(settings_.alignment_iterations - 1) : 1.0F;
+    const float radius_m =
+        settings_.first_alignment_radius_m + (settings_.last_alignment_radius_m - settings_.first_alignment_radius_m) * progress;
+    executor_.for_each(static_cast<std::size_t>(num_used) * static_cast<std::size_t>(num_trees_),
+                       MeasureOffset{query_.reservoirs, num_trees_, pool.sampled.size(), pool.leaves.data(), alignment.surfaces.data(),
+                                     1000.0F * radius_m, alignment.state.data(), alignment.offsets.data()});
+    executor_.for_each_team(1, AlignWithPoints<Executor>{num_trees_, alignment.surfaces.data(), alignment.offsets.data(), num_used,
+                                                         radius_m, alignment.state.data()});
+  }
+
+  Executor executor_;
+  const PoseQuery& query_;
+  int num_trees_;
+  const PoseEstimatorSettings& settings_;
 };
 
 }  // namespace foothold

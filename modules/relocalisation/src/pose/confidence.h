@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "pose/pose_estimator.h"
+#include "pose/candidates.h"
 
 namespace foothold {
 

@@ -24,7 +24,7 @@ ExplainedMode explain_mode(const Mode& mode, const Eigen::Vector3f& origin_world
 }  // namespace
 
 Explanation explain(const PoseEstimator& estimator, const std::vector<PoseEstimate>& estimates, const Eigen::Vector3f& origin_world) {
-  const PoseEstimator::Buffers& buffers = estimator.buffers();
+  const PoseBuffers& buffers = estimator.buffers();
   Explanation explanation;
   for (const PoseCandidate& candidate : buffers.candidates.to_host()) {
     if (candidate.valid == 0) continue;
@@ -32,9 +32,9 @@ Explanation explain(const PoseEstimator& estimator, const std::vector<PoseEstima
     const PoseEstimate& estimate = estimates[explanation.candidates.size()];
     explanation.candidates.push_back({estimate.world_from_camera, estimate.confidence, candidate.mean_energy, candidate.inlier_fraction});
   }
-  const std::vector<PooledPixel> pixels = buffers.pixels.to_host();
-  const std::size_t num_pixels = buffers.slots.to_host().back();
-  const std::vector<Mode> modes = buffers.modes.to_host();
+  const std::vector<PooledPixel> pixels = buffers.pool.pixels.to_host();
+  const std::size_t num_pixels = buffers.pool.slots.to_host().back();
+  const std::vector<Mode> modes = buffers.pool.modes.to_host();
   for (std::size_t i = 0; i < num_pixels; ++i) {
     const PooledPixel& pixel = pixels[i];
     explanation.pixels.push_back({{pixel.point_camera[0], pixel.point_camera[1], pixel.point_camera[2]},

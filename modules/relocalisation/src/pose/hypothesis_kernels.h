@@ -3,19 +3,17 @@
 /// Drawing hypotheses: triples of pixels with one mode each that pass the paper's three checks. Reference: [Cavallari2017] Sec. 2.2.3.
 #pragma once
 
+#include <cstring>
 #include <limits>
 
 #include "foothold/base/random.h"
+#include "foothold/base/span.h"
+#include "foothold/relocalisation/settings.h"
+#include "pose/hypotheses.h"
 #include "pose/kabsch.h"
-#include "pose/pose_estimator.h"
+#include "pose/pool.h"
 
 namespace foothold {
-
-/// Energies from here on are those of failed draws.
-inline constexpr float kFailedEnergy = 1e30F;
-
-/// Teams here share nothing.
-struct NoScratch {};
 
 FOOTHOLD_HD inline Eigen::Vector3f point_of(const PooledPixel& pixel) {
   return {pixel.point_camera[0], pixel.point_camera[1], pixel.point_camera[2]};
@@ -38,10 +36,9 @@ template <class Executor>
 struct DrawHypothesis {
   CorrespondencePoolView pool;
   PoseEstimatorSettings settings;
-  SE3* hypotheses;
-  float* energies;
+  HypothesesView hypotheses;
 
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t i) const {
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t i) const {
     const std::uint32_t num_pixels = *pool.num_pixels;
     const int num_draws = num_pixels < 3 ? 0 : settings.max_draws;
     const Random random(settings.seed, i);
@@ -59,9 +56,9 @@ struct DrawHypothesis {
   }
 
  private:
-  FOOTHOLD_HD void set(std::size_t i, const SE3& hypothesis, float energy) const {
-    hypotheses[i] = hypothesis;
-    energies[i] = energy;
+  FOOTHOLD_HD void set(std::size_t i, const SE3& scene_from_camera, float energy) const {
+    hypotheses.poses[i] = scene_from_camera;
+    hypotheses.energies[i] = energy;
   }
 
   FOOTHOLD_HD bool draw_triple(Random& random, std::uint32_t num_pixels, SE3& scene_from_camera) const {
@@ -116,12 +113,40 @@ struct CountDrawn {
   int num_hypotheses;
   std::uint32_t* count;
 
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t) const {
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
     float sum = 0.0F;
     for (int i = team.lane(); i < num_hypotheses; i += team.size()) sum += energies[i] < kFailedEnergy ? 1.0F : 0.0F;
     sum = team.sum(sum);
     if (team.lane() == 0) *count = static_cast<std::uint32_t>(sum);
   }
 };
+
+/// Sort key of a hypothesis: its energy's bits order as the energy does, since energies are not negative.
+struct MakeEnergyKey {
+  HypothesesView hypotheses;
+  bool first_time;
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    const std::uint32_t hypothesis = first_time ? static_cast<std::uint32_t>(i) : hypotheses.at(i);
+    std::uint32_t bits = 0;
+    memcpy(&bits, &hypotheses.energies[hypothesis], sizeof(bits));
+    hypotheses.order[i] = (static_cast<std::uint64_t>(bits) << 32U) | hypothesis;
+  }
+};
+
+/// Draws hypotheses, whose order is that of their numbers.
+template <class Executor>
+void draw_hypotheses(const Executor& executor, const CorrespondencePoolView& pool, const PoseEstimatorSettings& settings,
+                     Hypotheses& hypotheses) {
+  const auto num_hypotheses = static_cast<std::size_t>(settings.num_hypotheses);
+  executor.for_each_team(num_hypotheses, DrawHypothesis<Executor>{pool, settings, hypotheses.view()});
+  executor.for_each(num_hypotheses, MakeEnergyKey{hypotheses.view(), true});
+}
+
+/// Orders the first slots by rising energy.
+template <class Executor>
+void sort_by_energy(const Executor& executor, std::size_t num_slots, Hypotheses& hypotheses) {
+  executor.for_each(num_slots, MakeEnergyKey{hypotheses.view(), false});
+  executor.sort(Span<std::uint64_t>(hypotheses.order.data(), num_slots), hypotheses.sort_buffer, 32, 64);
+}
 
 }  // namespace foothold

@@ -4,8 +4,8 @@
 /// with the reservoirs as the model. Not in the paper. Reference: point-to-plane ICP [Chen1992] with projective association [Blais1995].
 #pragma once
 
-#include "pose/align_kernels.h"
-#include "pose/rank_kernels.h"
+#include "pose/rank.h"
+#include "pose/surface_kernels.h"
 
 namespace foothold {
 
@@ -18,7 +18,7 @@ struct AlignByProjection {
   float distance_m;  ///< points further from the surface count nothing
   AlignmentState* state;
 
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t) const {
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
     const SE3 pose = state->scene_from_camera;
     float sums[kNumSums] = {};
     for (int i = team.lane(); i < num_points; i += team.size()) {

@@ -9,7 +9,9 @@
 #include <cstring>
 
 #include "foothold/base/random.h"
-#include "pose/score_kernels.h"
+#include "pose/hypothesis_kernels.h"
+#include "pose/pose_query.h"
+#include "pose/rank.h"
 #include "reservoirs/leaf_reservoirs_kernels.h"
 
 namespace foothold {
@@ -46,14 +48,13 @@ struct JudgeCandidates {
   const RememberedPoint* points;
   int num_points;
   int max_colour_difference;
-  const SE3* hypotheses;
-  const std::uint64_t* order;
+  HypothesesView hypotheses;
   SceneEvidence* evidence;  ///< per hypothesis
 
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t slot) const {
-    const std::uint32_t hypothesis = hypothesis_of(order[slot]);
-    const Eigen::Matrix3f camera_from_scene = hypotheses[hypothesis].rotation.transpose();
-    const Eigen::Vector3f camera_scene = hypotheses[hypothesis].translation;
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t slot) const {
+    const std::uint32_t hypothesis = hypotheses.at(slot);
+    const Eigen::Matrix3f camera_from_scene = hypotheses.poses[hypothesis].rotation.transpose();
+    const Eigen::Vector3f camera_scene = hypotheses.poses[hypothesis].translation;
     float counts[3] = {};
     for (int i = team.lane(); i < num_points; i += team.size()) {
       const RememberedPoint& point = points[i];
@@ -104,18 +105,42 @@ struct JudgeCandidates {
 /// Gives each candidate a key that orders the better ones first; of equals, those of lower energy stay first in a stable sort.
 struct MakeEvidenceKey {
   const SceneEvidence* evidence;
-  const float* energies;
-  std::uint64_t* order;
+  HypothesesView hypotheses;
 
   FOOTHOLD_HD void operator()(std::size_t slot) const {
-    const std::uint32_t hypothesis = hypothesis_of(order[slot]);
+    const std::uint32_t hypothesis = hypotheses.at(slot);
     const SceneEvidence& found = evidence[hypothesis];
-    const bool failed = energies[hypothesis] >= kFailedEnergy;
+    const bool failed = hypotheses.energies[hypothesis] >= kFailedEnergy;
     const float disbelief = failed ? kFailedEnergy : 1.0F + found.contradicted_fraction() - found.alike_fraction();  // positive
     std::uint32_t bits = 0;
     memcpy(&bits, &disbelief, sizeof(bits));
-    order[slot] = (static_cast<std::uint64_t>(bits) << 32U) | hypothesis;
+    hypotheses.order[slot] = (static_cast<std::uint64_t>(bits) << 32U) | hypothesis;
   }
 };
+
+/// Draws the points that candidates are judged by and aligned with.
+template <class Executor>
+void draw_remembered_points(const Executor& executor, const PoseQuery& query, std::uint64_t seed, Ranking& ranking) {
+  constexpr std::uint64_t kStream = ~std::uint64_t{1};
+  executor.for_each(ranking.points.size(), DrawRememberedPoint{query.reservoirs, derive_seed(seed, kStream), ranking.points.data()});
+}
+
+/// Confronts the hypotheses in the first slots with the points.
+template <class Executor>
+void judge(const Executor& executor, const PoseQuery& query, const PoseEstimatorSettings& settings, std::size_t num_candidates,
+           Hypotheses& hypotheses, Ranking& ranking) {
+  executor.for_each_team(num_candidates, JudgeCandidates<Executor>{query.image.view(), query.averaged_intrinsics(), ranking.points.data(),
+                                                                   settings.ranking_points, settings.max_colour_difference,
+                                                                   hypotheses.view(), ranking.evidence.data()});
+}
+
+/// Orders the hypotheses in the first slots by what the points say about them.
+template <class Executor>
+void rank(const Executor& executor, const PoseQuery& query, const PoseEstimatorSettings& settings, std::size_t num_candidates,
+          Hypotheses& hypotheses, Ranking& ranking) {
+  judge(executor, query, settings, num_candidates, hypotheses, ranking);
+  executor.for_each(num_candidates, MakeEvidenceKey{ranking.evidence.data(), hypotheses.view()});
+  executor.sort(Span<std::uint64_t>(hypotheses.order.data(), num_candidates), hypotheses.sort_buffer, 32, 64);
+}
 
 }  // namespace foothold

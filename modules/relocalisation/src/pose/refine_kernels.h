@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "pose/refine.h"
 #include "pose/score_kernels.h"
 
 namespace foothold {
@@ -14,16 +15,16 @@ namespace foothold {
 template <class Executor>
 struct AssignModes {
   static constexpr int kWidth = Executor::kVectorWidth;
+  static_assert(kLargestGroup % kWidth == 0, "ModeAssignments has room for whole groups");
   CorrespondencePoolView pool;
-  const SE3* hypotheses;
-  const std::uint64_t* order;
+  HypothesesView hypotheses;
   std::size_t num_active;
   std::uint32_t num_samples;
   float radius_m;
   std::uint16_t* nearest;
 
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t group) const {
-    const PoseGroup<kWidth> poses(hypotheses, order, group * static_cast<std::size_t>(kWidth), num_active);
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t group) const {
+    const PoseGroup<kWidth> poses(hypotheses, group * static_cast<std::size_t>(kWidth), num_active);
     std::uint16_t* out = nearest + group * num_samples * static_cast<std::size_t>(kWidth);
     for (std::uint32_t s = static_cast<std::uint32_t>(team.lane()); s < num_samples; s += static_cast<std::uint32_t>(team.size())) {
       std::uint16_t* const row = out + s * static_cast<std::uint32_t>(kWidth);
@@ -37,31 +38,20 @@ struct AssignModes {
 
  private:
   FOOTHOLD_HD FOOTHOLD_INLINE void assign_sample(const PoseGroup<kWidth>& poses, const PooledPixel& pixel, std::uint16_t* row) const {
-    float x[kWidth];
-    float y[kWidth];
-    float z[kWidth];
     float best[kWidth];
     float distance2[kWidth];
     std::int32_t position[kWidth];
-    poses.transform(pixel, x, y, z);
     for (int w = 0; w < kWidth; ++w) {
       best[w] = std::numeric_limits<float>::max();
       distance2[w] = std::numeric_limits<float>::max();
       position[w] = kNoMode;
     }
-    for (int m = 0; m < pixel.num_modes; ++m) {
-      const Mode& mode = pool.modes[pixel.first_mode + static_cast<std::uint32_t>(m)];
-      for (int w = 0; w < kWidth; ++w) {
-        const float dx = x[w] - mode.mean_m[0];
-        const float dy = y[w] - mode.mean_m[1];
-        const float dz = z[w] - mode.mean_m[2];
-        const float d2 = squared_mahalanobis(mode, dx, dy, dz);
-        const bool nearer = d2 < best[w];
-        best[w] = nearer ? d2 : best[w];
-        distance2[w] = nearer ? dx * dx + dy * dy + dz * dz : distance2[w];
-        position[w] = nearer ? m : position[w];
-      }
-    }
+    scan_modes(poses, pool, pixel, [&](int mode, int w, float d2, float mode_distance2) {
+      const bool nearer = d2 < best[w];
+      best[w] = nearer ? d2 : best[w];
+      distance2[w] = nearer ? mode_distance2 : distance2[w];
+      position[w] = nearer ? mode : position[w];
+    });
     for (int w = 0; w < kWidth; ++w) row[w] = static_cast<std::uint16_t>(distance2[w] < radius_m * radius_m ? position[w] : kNoMode);
   }
 };
@@ -114,14 +104,13 @@ template <class Executor>
 struct RefineHypothesis {
   static constexpr int kWidth = Executor::kVectorWidth;
   CorrespondencePoolView pool;
-  const std::uint64_t* order;
+  HypothesesView hypotheses;
   std::uint32_t num_samples;
   const std::uint16_t* nearest;
   int num_iterations;
-  SE3* hypotheses;
 
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, NoScratch&, std::size_t slot) const {
-    SE3& hypothesis = hypotheses[hypothesis_of(order[slot])];
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t slot) const {
+    SE3& hypothesis = hypotheses.pose_at(slot);
     const std::uint16_t* assigned = nearest + slot / kWidth * num_samples * static_cast<std::size_t>(kWidth) + slot % kWidth;
     SE3 best = hypothesis;
     SE3 trial = best;
@@ -242,5 +231,23 @@ struct RefineHypothesis {
     }
   }
 };
+
+/// How far hypotheses are refined.
+struct Refinement {
+  int num_samples;
+  float radius_m;  ///< distance to its mode beyond which a sample does not count
+  int num_iterations;
+};
+
+/// Refines the hypotheses in the first slots.
+template <class Executor>
+void refine(const Executor& executor, const CorrespondencePoolView& pool, const Refinement& how, std::size_t num_active,
+            Hypotheses& hypotheses, ModeAssignments& assignments) {
+  const auto num_samples = static_cast<std::uint32_t>(how.num_samples);
+  executor.for_each_team(num_groups<Executor>(num_active),
+                         AssignModes<Executor>{pool, hypotheses.view(), num_active, num_samples, how.radius_m, assignments.nearest.data()});
+  executor.for_each_team(num_active,
+                         RefineHypothesis<Executor>{pool, hypotheses.view(), num_samples, assignments.nearest.data(), how.num_iterations});
+}
 
 }  // namespace foothold

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <iosfwd>
 
-#include "features/feature_image.h"
+#include "features/leaf_lookup.h"
 #include "foothold/api/frame.h"
 #include "foothold/base/array.h"
 #include "foothold/base/context.h"

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "features/feature_image_kernels.h"
 #include "foothold/base/random.h"
 #include "reservoirs/leaf_reservoirs.h"
 

@@ -3,9 +3,11 @@
 #include "foothold/base/exec/cuda_executor.cuh"
 
 #include "features/feature_image_kernels.h"
+#include "features/leaf_lookup_kernels.h"
 
 namespace foothold {
 
-template struct FeatureAlgorithms<CudaExecutor>;
+template struct FeatureImageAlgorithms<CudaExecutor>;
+template struct LeafLookupAlgorithms<CudaExecutor>;
 
 }  // namespace foothold

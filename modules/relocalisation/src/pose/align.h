@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Surfaces of the frame, and the progress of aligning a pose with what the scene remembers of them.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "foothold/base/array.h"
+#include "foothold/base/se3.h"
+
+namespace foothold {
+
+/// A pooled pixel's surface: its averaged camera point and normal; no normal (zero) where the surface is broken or unmeasured.
+struct SurfaceSample {
+  float point_camera[3];   ///< [m]
+  float normal_camera[3];  ///< unit length, towards the camera
+};
+
+/// A sample's distance along its normal to the points that one leaf remembers around it, as weighted sums.
+struct SurfaceOffset {
+  float weight;
+  float offset_mm;  ///< times the weight
+};
+
+/// The progress of an alignment; in device memory, so that no step waits for the host.
+struct AlignmentState {
+  SE3 scene_from_camera;
+  float misfit;  ///< 0 if every sample lies on the remembered surface, 1 if none has any of it around
+  std::int32_t ended;
+};
+static_assert(sizeof(AlignmentState) == 56, "lives in device memory");
+
+/// Owns all of it.
+struct Alignment {
+  Alignment(MemoryKind memory, int num_samples, int num_candidates)
+      : surfaces(memory, static_cast<std::size_t>(num_samples)),
+        offsets(memory),
+        state(memory, 1),
+        misfits(memory, Span<const float>(std::vector<float>(static_cast<std::size_t>(num_candidates), 1.0F))) {}
+
+  Array<SurfaceSample> surfaces;
+  Array<SurfaceOffset> offsets;  ///< samples x trees
+  Array<AlignmentState> state;
+  Array<float> misfits;  ///< per candidate; 1 for those that were not aligned
+};
+
+}  // namespace foothold

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What an estimate answers with.
+#pragma once
+
+#include <cstdint>
+
+#include "foothold/base/se3.h"
+
+namespace foothold {
+
+inline constexpr float kInlierDistanceM = 0.05F;
+inline constexpr float kFineInlierDistanceM = 0.025F;
+
+/// A hypothesis that came far, with what its pose explains of the whole pool.
+struct PoseCandidate {
+  SE3 scene_from_camera;
+  float mean_energy = 0.0F;            ///< truncated Mahalanobis distance per pooled pixel, Eq. 4
+  float inlier_fraction = 0.0F;        ///< pooled pixels with a mode within kInlierDistanceM, among all pooled pixels with depth
+  float fine_fraction = 0.0F;          ///< the same within kFineInlierDistanceM
+  float surface_fit = 0.0F;            ///< how well samples lie on the remembered surface, 0 to 1; 0 for candidates that were not aligned
+  float contradicted_fraction = 0.0F;  ///< SceneEvidence's; 0 without ranking_points
+  float alike_fraction = 0.0F;         ///< SceneEvidence's; 0 without ranking_points
+  std::int32_t valid = 0;
+};
+static_assert(sizeof(PoseCandidate) == 76, "copied from the device");
+
+}  // namespace foothold

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What an estimate works on.
+#pragma once
+
+#include "clustering/leaf_modes.h"
+#include "foothold/api/frame.h"
+#include "foothold/relocalisation/feature_image.h"
+#include "reservoirs/leaf_reservoirs.h"
+
+namespace foothold {
+
+/// A frame whose camera is to be found, and the scene to find it in.
+struct PoseQuery {
+  const Frame& frame;
+  const FeatureImage& image;
+  LeafReservoirsView reservoirs;
+  LeafModesView leaf_modes;
+
+  /// The depth camera as if its images were averaged as the feature image is.
+  Intrinsics averaged_intrinsics() const { return frame.calibration.depth.scaled(1.0F / static_cast<float>(image.downscale())); }
+};
+
+}  // namespace foothold
