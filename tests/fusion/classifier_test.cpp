@@ -10,6 +10,7 @@
 #include "foothold/fusion/pose_refiner.h"
 #include "foothold/fusion/tracking_quality.h"
 #include "support/catch.h"
+#include "support/comma_locale.h"
 #include "support/error_message.h"
 #include "support/random_seed.h"
 
@@ -113,6 +114,22 @@ TEST_CASE("read_classifier: reads what write_classifier wrote, exactly") {
   REQUIRE(first.str() == second.str());
   REQUIRE(again.features[1].weights[3] == 1e-3F);
   REQUIRE(again.provenance == model.provenance);
+}
+
+TEST_CASE("read_classifier, write_classifier: a host's decimal commas change nothing") {
+  const ClassifierModel model = parse(kText);
+  std::ostringstream expected;
+  write_classifier(expected, model);
+  const test::CommaLocale commas;
+  if (!commas.reached_c()) WARN("C's functions heed no decimal comma here: package locales is missing");
+  std::ostringstream written;  // heeds C++'s locale
+  written << 1234.5;
+  REQUIRE(written.str() == "1.234,5");
+  written.str("");
+  write_classifier(written, model);
+  REQUIRE(written.str() == expected.str());
+  REQUIRE(parse(expected.str()).features[0].mean == 1.5F);
+  REQUIRE(test::contains(test::error_message<FileError>([] { parse(altered("bias -0.75", "bias -0,75")); }), "'-0,75'"));
 }
 
 TEST_CASE("read_classifier: names the line and what is wrong with it") {

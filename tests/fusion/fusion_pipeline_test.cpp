@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/fusion/fusion_pipeline.h"
 
+#include <algorithm>
+#include <limits>
 #include <sstream>
 
 #include "foothold/base/error.h"
@@ -9,6 +11,7 @@
 #include "room_recording.h"
 #include "scene.h"
 #include "support/catch.h"
+#include "support/comma_locale.h"
 
 namespace foothold {
 namespace {
@@ -88,10 +91,85 @@ TEST_CASE("FusionPipeline: while lost, neither the map nor the relocaliser chang
     REQUIRE(run.last.confidence == 0.0F);
     REQUIRE_FALSE(run.last.fused);
     REQUIRE_FALSE(run.last.trained);
-    REQUIRE(run.last.relocaliser_asked);
+    REQUIRE(run.last.relocaliser_asked == (i % 3 != 2));
   }
   REQUIRE(bytes_of(run.pipeline.volume()) == before);
   REQUIRE(run.oracle.trained.size() == num_trained);
+}
+
+/// The office's frame with the same depth everywhere.
+RgbdFrame flat_frame(int index, float depth_m) {
+  RgbdFrame frame = test::office().frame(index);
+  std::fill_n(frame.depth.data(), frame.depth.size(), depth_m);
+  return frame;
+}
+
+TEST_CASE("FusionPipeline: a frame without depth in range is a loss about which nobody is asked") {
+  Followed run;
+  run.answer(test::office().pose(kNumFollowed));
+  for (const float depth_m : {0.0F, std::numeric_limits<float>::quiet_NaN(), 5.5F, 0.1F}) {
+    run.last = run.pipeline.process(flat_frame(kNumFollowed, depth_m).view());
+    CAPTURE(depth_m);
+    REQUIRE(run.last.state == RecoveryState::kLost);
+    REQUIRE_FALSE(run.last.relocaliser_asked);
+  }
+  REQUIRE(run.oracle.num_asked == 0);
+  run.process(kNumFollowed);
+  REQUIRE(run.oracle.num_asked == 1);
+  REQUIRE(run.last.relocalised);
+}
+
+TEST_CASE("FusionPipeline: frames that do not start a map teach the relocaliser nothing") {
+  OracleRelocaliser oracle;
+  FusionPipeline pipeline(Context(), {}, &oracle);
+  for (const float depth_m : {5.5F, 0.0F, 0.1F}) {
+    const FusionFrameResult result = pipeline.process(flat_frame(0, depth_m).view());
+    REQUIRE(result.state == RecoveryState::kLost);
+    REQUIRE_FALSE(result.trained);
+    REQUIRE_FALSE(result.fused);
+  }
+  REQUIRE(oracle.trained.empty());
+  REQUIRE(pipeline.process(test::office().frame(0).view()).trained);
+  REQUIRE(oracle.trained.size() == 1);
+}
+
+TEST_CASE("FusionPipeline: frames smaller than what is rendered of them count as lost ones, before and after the start") {
+  OracleRelocaliser oracle;
+  FusionPipeline pipeline(Context(), {}, &oracle);
+  const auto process_small = [&] {
+    for (const auto& [width, height] : {std::pair{1, 1}, {3, 1}, {3, 3}, {4, 4}, {640, 1}, {7, 480}}) {
+      RgbdFrame small = test::office().frame(0);
+      small.depth = Image<float>(width, height);
+      small.colour = Image<Rgb8>(width, height);
+      std::fill_n(small.depth.data(), small.depth.size(), 1.0F);
+      const FusionFrameResult result = pipeline.process(small.view());
+      CAPTURE(width, height);
+      REQUIRE(result.state == RecoveryState::kLost);
+      REQUIRE_FALSE(result.world_from_camera.has_value());
+      REQUIRE_FALSE(result.relocaliser_asked);
+    }
+  };
+  process_small();
+  REQUIRE(pipeline.volume().num_blocks() == 0);
+  pipeline.start_at(test::office().pose(0));
+  for (int i = 0; i < kNumFollowed; ++i) pipeline.process(test::office().frame(i).view());
+  REQUIRE(pipeline.state() == RecoveryState::kTracking);
+  process_small();
+  oracle.answers = {{test::office().pose(kNumFollowed), 0.9F}};
+  REQUIRE(pipeline.process(test::office().frame(kNumFollowed).view()).relocalised);
+}
+
+TEST_CASE("FusionPipeline: a host's decimal commas change nothing") {
+  FusionFrameResult with;
+  {
+    const test::CommaLocale commas;  // first: the classifiers are read once
+    if (!commas.reached_c()) WARN("C's functions heed no decimal comma here: package locales is missing");
+    with = Followed().last;
+  }
+  const FusionFrameResult without = Followed().last;
+  REQUIRE(with.quality_score == without.quality_score);
+  REQUIRE(with.confidence == without.confidence);
+  REQUIRE(with.world_from_camera->translation == without.world_from_camera->translation);
 }
 
 TEST_CASE("FusionPipeline: recovers from a kidnap at once, and holds fusion back until tracking has settled") {

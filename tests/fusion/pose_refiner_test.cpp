@@ -179,6 +179,16 @@ TEST_CASE("PoseRefiner: accepts nothing where the map is empty, or without propo
   REQUIRE(refiner.refine(frame.view(), office_map(), std::vector<PoseEstimate>{}).empty());
 }
 
+TEST_CASE("PoseRefiner: of an image too small to be reduced nothing is expected") {
+  PoseRefiner refiner(office_map().context());
+  for (const auto& [width, height] : {std::pair{1, 1}, {7, 480}, {640, 7}}) {
+    RgbdFrame small = test::office().frame(kSeen);
+    small.depth = Image<float>(width, height);
+    small.colour = Image<Rgb8>(width, height);
+    REQUIRE(refiner.refine(small.view(), office_map(), std::vector<PoseEstimate>{proposal(*small.world_from_camera)}).empty());
+  }
+}
+
 TEST_CASE("PoseRefiner: what becomes of a pose does not depend on those that are refined with it") {
   PoseRefiner refiner(office_map().context());
   const RgbdFrame& frame = test::office().frame(kSeen + 1);

@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/fusion/raycaster.h"
 
+#include <algorithm>
 #include <cstring>
 
-#include "foothold/base/error.h"
 #include "foothold/base/trace.h"
 #include "scene.h"
 #include "support/catch.h"
@@ -117,33 +117,72 @@ TEST_CASE("Raycaster: several poses at once show what each shows alone") {
   }
 }
 
+int num_hit(const SurfaceMap& map) {
+  return static_cast<int>(
+      std::count_if(map.pixels.begin(), map.pixels.end(), [](const SurfacePixel& pixel) { return pixel.depth_m != 0.0F; }));
+}
+
 TEST_CASE("Raycaster: an empty map, a view of nothing and a view from inside a wall hit nothing") {
   const Context context = make_context(1);
   Raycaster raycaster(context);
   SurfaceMap map;
   const Intrinsics k{100.0F, 100.0F, 49.5F, 39.5F};
-  const auto num_hit = [&](const TsdfVolume& volume, const SE3& pose) {
+  const auto num_hit_from = [&](const TsdfVolume& volume, const SE3& pose) {
     raycaster.render(volume, {k, 100, 80, pose}, map, true);
-    int count = 0;
-    for (const SurfacePixel& pixel : map.pixels) count += pixel.depth_m != 0.0F ? 1 : 0;
-    return count;
+    return num_hit(map);
   };
-  REQUIRE(num_hit(TsdfVolume(context, {}), SE3{}) == 0);
+  REQUIRE(num_hit_from(TsdfVolume(context, {}), SE3{}) == 0);
   const TsdfVolume volume = test::fused_arc(context, Scene{}, 3);
-  REQUIRE(num_hit(volume, test::look_at({0.0F, 0.0F, 20.0F}, {0.0F, 0.0F, 30.0F})) == 0);
+  REQUIRE(num_hit_from(volume, test::look_at({0.0F, 0.0F, 20.0F}, {0.0F, 0.0F, 30.0F})) == 0);
   // The back of the far wall is no surface: rays pass through it, and through the sphere's back, into the unseen.
-  REQUIRE(num_hit(volume, test::look_at({0.0F, 0.0F, 2.5F}, {0.0F, 0.01F, 1.4F})) < 80);
+  REQUIRE(num_hit_from(volume, test::look_at({0.0F, 0.0F, 2.5F}, {0.0F, 0.01F, 1.4F})) < 80);
 }
 
-TEST_CASE("RaycasterSettings: defaults are as documented, and each range is enforced") {
-  RaycasterSettings settings;
-  REQUIRE(settings.step_fraction == 0.8F);
-  REQUIRE(settings.discontinuity == 0.04F);
-  settings.step_fraction = 0.0F;
-  REQUIRE_THROWS_AS(settings.validate(), InvalidSettings);
-  settings = {};
-  settings.discontinuity = 2.0F;
-  REQUIRE_THROWS_AS(settings.validate(), InvalidSettings);
+/// A frame that sees a wall left of a column, nothing to the right of it.
+RgbdFrame wall_left_of(int column) {
+  RgbdFrame frame = test::render(Scene{}, SE3{}, 64, 48);
+  for (int v = 0; v < 48; ++v) {
+    for (int u = 0; u < 64; ++u) frame.depth(u, v) = u < column ? 2.0F : 0.0F;
+  }
+  return frame;
+}
+
+TEST_CASE("Raycaster: surfaces hundreds of kilometres away neither hold a ray up nor hide what is near") {
+  const Context context = make_context(1);
+  TsdfSettings settings;
+  settings.voxel_size_m = 0.09F;
+  settings.truncation_m = 0.3F;
+  TsdfVolume volume(context, settings);
+  const RgbdFrame near = wall_left_of(28);
+  volume.integrate(near.view(), SE3{});
+  Raycaster raycaster(context);
+  const RenderCamera camera{near.calibration.depth, 64, 48, SE3{}};
+  SurfaceMap alone;
+  raycaster.render(volume, camera, alone);
+  REQUIRE(num_hit(alone) > 1000);
+  for (const float z_m : {4e5F, -4e5F}) {  // straight ahead, where rays pass by the wall, and behind
+    SE3 pose;
+    pose.translation.z() = z_m;
+    volume.integrate(wall_left_of(64).view(), pose);
+  }
+  SurfaceMap map;
+  raycaster.render(volume, camera, map);
+  REQUIRE(num_hit(map) == num_hit(alone));
+  for (const Eigen::Vector3f& position :
+       {Eigen::Vector3f(0.0F, 0.0F, 3.9999e5F), Eigen::Vector3f(1e12F, 0.0F, 0.0F), Eigen::Vector3f(0.0F, 1e30F, -1e30F)}) {
+    raycaster.render(volume, {near.calibration.depth, 64, 48, {Eigen::Matrix3f::Identity(), position}}, map);  // comes to an end
+  }
+}
+
+TEST_CASE("Raycaster: a camera without focal length sees nothing, and that soon") {
+  const Context context = make_context(1);
+  const TsdfVolume volume = test::fused_arc(context, Scene{}, 3);
+  Raycaster raycaster(context);
+  SurfaceMap map;
+  for (const float focal_px : {1e-3F, 1e-6F, 1e-30F, 1e-44F}) {
+    raycaster.render(volume, {{focal_px, focal_px, 32.0F, 24.0F}, 64, 48, test::pose_on_arc(0.5F)}, map, true);
+    REQUIRE(num_hit(map) <= 1);  // straight ahead at most
+  }
 }
 
 }  // namespace

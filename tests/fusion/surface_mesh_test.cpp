@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "foothold/synthetic/synthetic_sequence.h"
 #include "marching_cubes.h"
 #include "scene.h"
 #include "support/catch.h"
@@ -140,6 +141,41 @@ TEST_CASE("extract_mesh: a sphere is watertight across blocks, round, coloured a
     REQUIRE(std::abs(mesh.colours[v].r - expected(mesh.vertices[v].x())) < 8.0);
   }
   REQUIRE(quantile(errors_m, 0.5) < 0.002);
+}
+
+/// The length of a mesh's longest edge, in voxels.
+float longest_edge(const Mesh& mesh, float voxel_size_m) {
+  float longest_m = 0.0F;
+  for (const std::array<int, 3>& t : mesh.triangles) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const auto a = static_cast<std::size_t>(t[i]);
+      const auto b = static_cast<std::size_t>(t[(i + 1) % 3]);
+      longest_m = std::max(longest_m, (mesh.vertices[a] - mesh.vertices[b]).norm());
+    }
+  }
+  return longest_m / voxel_size_m;
+}
+
+TEST_CASE("extract_mesh: no edge is longer than the diagonal of a cell, however little of a room was seen") {
+  constexpr float kDiagonal = 1.74F;
+  const std::string room = GENERATE("office", "lounge", "kitchen");
+  for (const int seed : {1, 2}) {
+    const auto sequence =
+        make_synthetic_sequence(parse_synthetic_spec("synthetic:" + room + "?frames=300&seed=" + std::to_string(seed)), Context());
+    TsdfVolume volume(Context(), {});
+    int num_fused = 0;
+    for (const int last_frame : {3, 60, 61, 200}) {
+      // A few frames beside one another, then a gap: views that end in the middle of things.
+      for (int i = last_frame - 3; i < last_frame; ++i, ++num_fused) {
+        const RgbdFrame frame = sequence->load(i);
+        volume.integrate(frame.view(), *frame.world_from_camera);
+      }
+      const Mesh mesh = extract_mesh(volume);
+      CAPTURE(room, seed, num_fused);
+      REQUIRE(mesh.triangles.size() > 10000);
+      REQUIRE(longest_edge(mesh, volume.settings().voxel_size_m) < kDiagonal);
+    }
+  }
 }
 
 TEST_CASE("extract_mesh: empty for an empty map, smaller with a higher weight") {

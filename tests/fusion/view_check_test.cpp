@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "foothold/base/error.h"
 #include "scene.h"
 #include "support/catch.h"
 
@@ -130,6 +131,14 @@ TEST_CASE("ViewCheck: several comparisons at once find what each finds alone") {
   }
   REQUIRE(together.front().overlap > 0.97F);
   REQUIRE(together.back().overlap == 0.0F);
+}
+
+TEST_CASE("ViewCheckSettings: defaults validate, and the range of depth must not be empty") {
+  ViewCheckSettings settings;
+  REQUIRE_NOTHROW(settings.validate());
+  settings.min_depth_m = settings.max_depth_m;
+  REQUIRE_THROWS_AS(settings.validate(), InvalidSettings);
+  REQUIRE_THROWS_AS(ViewCheck(Context(), settings), InvalidSettings);
 }
 
 TEST_CASE("ViewCheck: identical for any number of threads") {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
 /// What a frame costs beside its kernels, counted on the emulated device: nothing is allocated, and the host waits for results alone.
+#include <algorithm>
 #include <vector>
 
 #include "foothold/api/frame_uploader.h"
@@ -112,6 +113,25 @@ TEST_CASE("frame cost: a fused frame allocates nothing and waits twice, for its 
   REQUIRE(device.counts().num_writes == 4);  // depth, colour, the guess, the pose to render from
   INFO("a fused frame: " << device.counts().num_launches << " launches");
   REQUIRE(device.counts().num_launches == kLaunchesOfFusion);
+}
+
+TEST_CASE("frame cost: a lost frame without depth waits once, to be told so, and asks nobody") {
+  const Context context = test::context_on(Device::kCuda);
+  FrameUploader uploader(context);
+  FusionPipeline pipeline(context, small_fusion(), nullptr);
+  RgbdFrame frame = test::render(test::Scene{}, test::pose_on_arc(0.3F), 160, 120);
+  pipeline.process(uploader.upload(frame.view()));
+  std::fill_n(frame.depth.data(), frame.depth.size(), 0.0F);
+  const Frame dark = uploader.upload(frame.view());
+  pipeline.process(dark);
+  REQUIRE(pipeline.state() == RecoveryState::kLost);
+
+  EmulatedCuda& device = EmulatedCuda::instance();
+  device.reset_counts();
+  pipeline.process(dark);
+  REQUIRE(device.counts().num_allocations == 0);
+  REQUIRE(device.counts().num_waits == 1);
+  REQUIRE(device.counts().num_launches <= 5);
 }
 
 TEST_CASE("frame cost: refining 16 candidates allocates nothing and waits twice, once for all of them and once for the finalists") {

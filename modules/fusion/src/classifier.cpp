@@ -3,11 +3,13 @@
 #include "foothold/fusion/classifier.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <istream>
 #include <limits>
 #include <ostream>
 #include <sstream>
+#include <system_error>
 
 #include "classifier_data.h"
 #include "foothold/base/contract.h"
@@ -24,6 +26,14 @@ constexpr std::size_t kMaxProvenance = 1000;
 
 /// The spectrum of the chi-square kernel's signature: sech(pi lambda).
 double spectrum(double lambda) { return 1.0 / std::cosh(3.14159265358979323846 * lambda); }
+
+/// A number as text that reads back exactly, whatever the host's locale.
+std::string text_of(float value) {
+  constexpr int kExactDigits = std::numeric_limits<float>::max_digits10;
+  char text[32];
+  const auto [end, error] = std::to_chars(text, text + sizeof(text), value, std::chars_format::general, kExactDigits);
+  return error == std::errc() ? std::string(text, end) : std::string();
+}
 
 /// Reads the lines of a classifier file.
 class Parser {
@@ -56,14 +66,10 @@ class Parser {
   float number(std::istringstream& words) const {
     std::string word;
     words >> word;
-    std::size_t used = 0;
     float value = 0.0F;
-    try {
-      value = std::stof(word, &used);
-    } catch (const std::exception&) {
-      used = 0;
-    }
-    if (used == 0 || used != word.size() || !std::isfinite(value)) fail("expected a finite number instead of '" + word.substr(0, 40) + "'");
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);  // heeds no locale
+    if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value))
+      fail("expected a finite number instead of '" + word.substr(0, 40) + "'");
     return value;
   }
 
@@ -172,18 +178,18 @@ float ClassifierModel::probability(float score) const {
 ClassifierModel read_classifier(std::istream& stream, const std::string& file_name) { return Parser(stream, file_name).parse(); }
 
 void write_classifier(std::ostream& stream, const ClassifierModel& model) {
-  stream.precision(9);
   stream << kFirstLine << "\nname " << model.name << '\n';
   for (const std::string& line : model.provenance) stream << "provenance " << line << '\n';
   stream << "# feature NAME MEAN DEVIATION and the weights of its five mapped values\n";
   for (const ClassifierModel::Feature& feature : model.features) {
-    stream << "feature " << feature.name << ' ' << feature.mean << ' ' << feature.deviation;
-    for (const float weight : feature.weights) stream << ' ' << weight;
+    stream << "feature " << feature.name << ' ' << text_of(feature.mean) << ' ' << text_of(feature.deviation);
+    for (const float weight : feature.weights) stream << ' ' << text_of(weight);
     stream << '\n';
   }
-  stream << "bias " << model.bias << "\n# P(positive) = 1 / (1 + exp(-(a score + b))): a b\n";
-  stream << "probability " << model.probability_scale << ' ' << model.probability_offset << "\n# scores above: good, poor\n";
-  stream << "thresholds " << model.good_threshold << ' ' << model.poor_threshold << '\n';
+  stream << "bias " << text_of(model.bias) << "\n# P(positive) = 1 / (1 + exp(-(a score + b))): a b\n";
+  stream << "probability " << text_of(model.probability_scale) << ' ' << text_of(model.probability_offset)
+         << "\n# scores above: good, poor\n";
+  stream << "thresholds " << text_of(model.good_threshold) << ' ' << text_of(model.poor_threshold) << '\n';
   stream.flush();
   if (!stream) throw FileError("classifier '" + model.name + "': writing failed");
 }

@@ -26,7 +26,7 @@ FusionPipeline::FusionPipeline(const Context& context, const FusionSettings& set
       settings_(settings),
       relocaliser_(relocaliser),
       volume_(context, settings.volume),
-      raycaster_(context, settings.raycaster),
+      raycaster_(context),
       icp_(context, settings.icp),
       check_(context, settings.refiner.check),
       refiner_(context, settings.refiner),
@@ -69,12 +69,12 @@ void FusionPipeline::reset() {
 FusionFrameResult FusionPipeline::process(const Frame& frame) {
   const Stopwatch total;
   FusionFrameResult result;
-  const bool well_formed = describe_frame_error(frame).empty();
+  const bool usable = describe_frame_error(frame).empty() && std::min(frame.depth.width, frame.depth.height) >= least_side_px();
   const bool may_track = !loss_forced_;
   loss_forced_ = false;
   if (started_) {
-    follow(frame, well_formed, may_track, result);
-  } else if (well_formed) {
+    follow(frame, usable, may_track, result);
+  } else if (usable) {
     start(frame, result);
   } else {
     result.state = RecoveryState::kLost;
@@ -85,13 +85,14 @@ FusionFrameResult FusionPipeline::process(const Frame& frame) {
 
 /// The first frame defines the map, unless there is nothing on it.
 void FusionPipeline::start(const Frame& frame, FusionFrameResult& result) {
-  learn(frame, result);
+  fuse(frame, result);
   if (volume_.num_blocks() == 0) {
     volume_.reset();
     result = {};
     result.state = RecoveryState::kLost;
     return;
   }
+  train(frame, result);
   started_ = true;
   result.quality = TrackingQuality::kGood;
   result.confidence = 1.0F;
@@ -99,12 +100,12 @@ void FusionPipeline::start(const Frame& frame, FusionFrameResult& result) {
   render(frame, result);
 }
 
-void FusionPipeline::follow(const Frame& frame, bool well_formed, bool may_track, FusionFrameResult& result) {
+void FusionPipeline::follow(const Frame& frame, bool usable, bool may_track, FusionFrameResult& result) {
   Sighting sighting;
-  if (well_formed && may_track && policy_.should_track()) track(frame, sighting, result);
+  if (usable && may_track && policy_.should_track()) track(frame, sighting, result);
   if (policy_.should_relocalise(sighting.tracked)) {
     sighting.outcome = RelocalisationOutcome::kNothing;
-    if (well_formed) relocalise(frame, sighting, result);
+    if (usable) relocalise(frame, sighting, result);
   }
   const RecoveryDecision decision = policy_.update(sighting.tracked, sighting.outcome);
   result.state = decision.state;
@@ -115,7 +116,10 @@ void FusionPipeline::follow(const Frame& frame, bool well_formed, bool may_track
   result.relocalised = decision.pose == PoseSource::kRelocaliser;
   world_from_camera_ = result.relocalised ? sighting.found.world_from_camera : sighting.tracked_world_from_camera;
   result.world_from_camera = world_from_camera_;
-  if (decision.fuse) learn(frame, result);
+  if (decision.fuse) {
+    fuse(frame, result);
+    train(frame, result);
+  }
   render(frame, result);
 }
 
@@ -151,10 +155,12 @@ void FusionPipeline::track(const Frame& frame, Sighting& sighting, FusionFrameRe
   result.track_ms = watch.elapsed_ms();
 }
 
-/// Asks the relocaliser, and the map whether to believe it.
+/// Asks the relocaliser, and the map whether to believe it; neither about a frame without depth.
 void FusionPipeline::relocalise(const Frame& frame, Sighting& sighting, FusionFrameResult& result) {
   const ScopedStage stage(context_, "fusion/relocalise");
   const Stopwatch watch;
+  icp_.set_frame(frame);
+  if (!icp_.sees_depth()) return;
   std::vector<PoseEstimate> proposals;
   if (sighting.tracked == TrackingQuality::kFailed) proposals.push_back({world_from_camera_, 0.0F});
   if (relocaliser_ != nullptr) {
@@ -184,17 +190,20 @@ void FusionPipeline::relocalise(const Frame& frame, Sighting& sighting, FusionFr
   result.agreement = found.agreement;
 }
 
-/// Fuses the frame and trains the relocaliser with it.
-void FusionPipeline::learn(const Frame& frame, FusionFrameResult& result) {
+void FusionPipeline::fuse(const Frame& frame, FusionFrameResult& result) {
   const Stopwatch watch;
   volume_.integrate(frame, world_from_camera_);
   result.fused = true;
   result.fuse_ms = watch.elapsed_ms();
+}
+
+void FusionPipeline::train(const Frame& frame, FusionFrameResult& result) {
   if (relocaliser_ == nullptr) return;
+  const Stopwatch watch;
   relocaliser_->train(frame, world_from_camera_);
   relocaliser_->update();
   result.trained = true;
-  result.train_ms = watch.elapsed_ms() - result.fuse_ms;
+  result.train_ms = watch.elapsed_ms();
 }
 
 void FusionPipeline::render(const Frame& frame, FusionFrameResult& result) {

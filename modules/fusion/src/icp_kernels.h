@@ -37,6 +37,23 @@ struct HalveDepth {
   }
 };
 
+/// Counts the pixels of one row whose depth is in range.
+struct CountRow {
+  ImageView<const float> depth;
+  float min_depth_m;
+  float max_depth_m;
+  std::uint32_t* counts;
+
+  FOOTHOLD_HD void operator()(std::size_t row) const {
+    std::uint32_t count = 0;
+    for (int u = 0; u < depth.width; ++u) {
+      const float depth_m = depth(u, static_cast<int>(row));
+      count += depth_m >= min_depth_m && depth_m <= max_depth_m ? 1 : 0;
+    }
+    counts[row] = count;
+  }
+};
+
 /// Everything that a step at one level needs.
 struct IcpStep {
   DepthLevel live;
@@ -335,6 +352,18 @@ void IcpOps<kDevice>::build_pyramid(const Context& context, const IcpSettings& s
     exec.for_each(coarse.depth.size(), HalveDepth{fine.depth, settings.min_depth_m, settings.max_depth_m,
                                                   scratch.depths_m[static_cast<std::size_t>(l - 1)].data(), coarse.depth.width});
   }
+}
+
+template <Device kDevice>
+std::uint32_t IcpOps<kDevice>::count_depth(const Context& context, const IcpSettings& settings, Scratch& scratch) {
+  const typename ExecutorOf<kDevice>::Type exec(context);
+  const ImageView<const float>& depth = scratch.levels[settings.finest_level].depth;
+  const auto num_rows = static_cast<std::size_t>(depth.height);
+  scratch.row_counts.resize(num_rows);
+  scratch.row_offsets.resize(num_rows + 1);
+  exec.for_each(num_rows, CountRow{depth, settings.min_depth_m, settings.max_depth_m, scratch.row_counts.data()});
+  exec.exclusive_scan(Span<const std::uint32_t>(scratch.row_counts), Span<std::uint32_t>(scratch.row_offsets));
+  return scratch.row_offsets.read(context, num_rows);
 }
 
 template <Device kDevice>

@@ -38,7 +38,8 @@ struct IcpState {
 static_assert(sizeof(IcpState) == 408, "copied from the device");
 
 struct IcpTracker::Scratch {
-  explicit Scratch(MemoryKind memory) : guess(memory), states(memory), world_from_cameras(memory), chunk_sums(memory) {}
+  explicit Scratch(MemoryKind memory)
+      : guess(memory), states(memory), world_from_cameras(memory), chunk_sums(memory), row_counts(memory), row_offsets(memory) {}
 
   DepthLevel levels[kMaxIcpLevels];
   std::vector<Array<float>> depths_m;  ///< of levels 1, 2, ...
@@ -46,7 +47,9 @@ struct IcpTracker::Scratch {
   Array<IcpState> states;              ///< of each alignment
   Array<SE3> world_from_cameras;       ///< where it ended
   Array<float> chunk_sums;             ///< by alignment, then by chunk
-  std::vector<IcpState> host_states;   ///< what queue_results() asked for
+  Array<std::uint32_t> row_counts;     ///< pixels with depth, by row of the finest level
+  Array<std::uint32_t> row_offsets;
+  std::vector<IcpState> host_states;  ///< what queue_results() asked for
   std::vector<SE3> host_world_from_cameras;
 };
 
@@ -56,6 +59,8 @@ struct IcpOps {
 
   /// Halves level `level - 1` into `level`, for every level up to the coarsest.
   static void build_pyramid(const Context& context, const IcpSettings& settings, Scratch& scratch);
+  /// The number of pixels at the finest level whose depth is in range.
+  static std::uint32_t count_depth(const Context& context, const IcpSettings& settings, Scratch& scratch);
   /// Runs all levels for every rendering of `models` at once, from as many guesses, and leaves states and poses in `scratch`.
   static void align(const Context& context, const IcpSettings& settings, const SurfaceMap& models, const SE3* guesses, Scratch& scratch);
 };

@@ -117,6 +117,11 @@ TrackingResult summarise(const IcpState& state, const SE3& world_from_camera, do
 }
 }  // namespace
 
+bool IcpTracker::sees_depth() {
+  FOOTHOLD_EXPECTS(!scratch_->levels[0].depth.empty());
+  return dispatch<IcpOps>(context_, [&](auto ops) { return ops.count_depth(context_, settings_, *scratch_); }) > 0;
+}
+
 TrackingResult IcpTracker::track(const SurfaceMap& model, const SE3& guess_world_from_camera) {
   scratch_->guess.assign(context_, Span<const SE3>(&guess_world_from_camera, 1));
   align_all(model, scratch_->guess);

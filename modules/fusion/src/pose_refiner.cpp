@@ -49,6 +49,7 @@ RenderCamera reduced_camera(const Frame& frame, int divisor) {
 void PoseRefinerSettings::validate() const {
   validate_settings(*this);
   icp.validate();
+  check.validate();
   if (fine_divisor > coarse_divisor) {
     throw InvalidSettings("setting fine_divisor: got " + std::to_string(fine_divisor) + ", expected at most coarse_divisor, " +
                           std::to_string(coarse_divisor));
@@ -243,7 +244,7 @@ std::vector<PoseEstimate> PoseRefiner::slide(const RefinedPose& pose) const {
 }
 
 std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals) {
-  if (proposals.empty()) return {};
+  if (proposals.empty() || std::min(frame.depth.width, frame.depth.height) < settings_.coarse_divisor) return {};
   coarse_icp_.set_frame(frame);
   fine_icp_.set_frame(frame);
   check_.set_frame(frame);

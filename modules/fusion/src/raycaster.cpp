@@ -9,10 +9,7 @@
 
 namespace foothold {
 
-Raycaster::Raycaster(const Context& context, const RaycasterSettings& settings)
-    : context_(context), settings_(settings), scratch_(std::make_unique<Scratch>(context.memory())) {
-  settings.validate();
-}
+Raycaster::Raycaster(const Context& context) : context_(context), scratch_(std::make_unique<Scratch>(context.memory())) {}
 Raycaster::~Raycaster() = default;
 Raycaster::Raycaster(Raycaster&&) noexcept = default;
 Raycaster& Raycaster::operator=(Raycaster&&) noexcept = default;
@@ -36,7 +33,7 @@ void Raycaster::render_all(const TsdfVolume& volume, const RenderCamera& camera,
   map.world_from_cameras.resize(world_from_cameras.size());
   map.pixels.resize(num_pixels);
   map.colours.resize(with_colour ? num_pixels : 0);
-  dispatch<RaycasterOps>(context_, [&](auto ops) { ops.render(context_, volume.view(), settings_, world_from_cameras, *scratch_, map); });
+  dispatch<RaycasterOps>(context_, [&](auto ops) { ops.render(context_, volume.view(), world_from_cameras, *scratch_, map); });
 }
 
 }  // namespace foothold

@@ -18,6 +18,10 @@ inline constexpr int kRayTileWidth = 16;
 inline constexpr int kRayTileHeight = 8;
 /// Voxels along each side of an eighth of a block, the unit of empty space.
 inline constexpr int kOctantSide = kBlockSide / 2;
+/// Length of a ray [voxels]: single precision tells all places along it apart by less than the shortest step, kNudge.
+inline constexpr float kRayLength = 32768.0F;
+/// Cameras farther from the world's origin than this see nothing: no voxel has such coordinates [voxels].
+inline constexpr float kFarthestCamera = 8388608.0F;
 
 FOOTHOLD_HD inline std::int32_t float_bits(float value) {
   std::int32_t bits = 0;
@@ -123,6 +127,11 @@ struct Ray {
   float inverse[3];       ///< of the direction
   float depth_per_metre;  ///< advance in depth for each metre along the ray
 
+  /// Whether it begins where voxels can be.
+  FOOTHOLD_HD bool is_near_map() const {
+    return std::abs(origin[0]) < kFarthestCamera && std::abs(origin[1]) < kFarthestCamera && std::abs(origin[2]) < kFarthestCamera;
+  }
+
   /// The depth at which the ray leaves an octant, given in octants.
   FOOTHOLD_HD float exit_depth(const BlockCoordinates& octant) const {
     const int corner[3] = {octant.x, octant.y, octant.z};
@@ -139,28 +148,26 @@ struct Ray {
 /// Follows one ray at a time to the first fall of the signed distance through zero.
 class RayMarcher {
  public:
-  FOOTHOLD_HD RayMarcher(const TsdfView& volume, float step_fraction)
-      : volume_(volume),
-        reader_(volume),
-        step_fraction_(step_fraction),
-        near_limit_(kInterpolationBand * volume.voxel_size_m / volume.truncation_m * kStoredOne) {}
+  FOOTHOLD_HD explicit RayMarcher(const TsdfView& volume)
+      : volume_(volume), reader_(volume), near_limit_(kInterpolationBand * volume.voxel_size_m / volume.truncation_m * kStoredOne) {}
 
   /// The depth of the surface [m], or 0.
   FOOTHOLD_HD float march(const Ray& ray, float near, float far) {
     const float voxel = volume_.voxel_size_m * ray.depth_per_metre;
-    const float to_depth = volume_.truncation_m * step_fraction_ * ray.depth_per_metre;
+    const float to_depth = volume_.truncation_m * kStepFraction * ray.depth_per_metre;
+    const float end = far < kRayLength * voxel ? far : kRayLength * voxel;
     float depth = near;
     bool outside = false;  // whether the last sample was in free space
     float outside_depth = 0.0F;
     float outside_distance = 0.0F;
-    while (depth < far) {
+    while (depth < end) {
       const float x = ray.origin[0] + ray.direction[0] * depth;
       const float y = ray.origin[1] + ray.direction[1] * depth;
       const float z = ray.origin[2] + ray.direction[2] * depth;
       if (!enter_octant(x, y, z)) {
         outside = false;
         const float exit = ray.exit_depth(octant_);
-        depth = (exit > depth ? exit : depth) + 0.05F * voxel;
+        depth = (exit > depth ? exit : depth) + kNudge * voxel;
         continue;
       }
       float distance = 0.0F;
@@ -188,6 +195,10 @@ class RayMarcher {
   FOOTHOLD_HD VoxelReader& reader() { return reader_; }
 
  private:
+  /// Part of the distance that a ray advances at once: below 1, because distances were measured along other rays (T: fusion_benchmark).
+  static constexpr float kStepFraction = 0.8F;
+  /// How far beyond its border a ray enters an octant [voxels].
+  static constexpr float kNudge = 0.05F;
   /// Farther from the surface than this the nearest voxel is exact enough [voxels].
   static constexpr float kInterpolationBand = 2.0F;
 
@@ -240,7 +251,6 @@ class RayMarcher {
 
   TsdfView volume_;
   VoxelReader reader_;
-  float step_fraction_;
   float near_limit_;
   BlockCoordinates octant_{INT32_MAX, 0, 0};
   std::uint64_t key_ = kNoKey;
@@ -252,7 +262,6 @@ class RayMarcher {
 struct RenderTile {
   TsdfView volume;
   RayCamera camera;
-  float step_fraction;
   const std::int32_t* near;
   const std::int32_t* far;
   float* depths_m;
@@ -263,7 +272,7 @@ struct RenderTile {
     const ImageItem item(tile, camera.num_tiles);
     const int u0 = item.index % camera.num_tile_columns * kRayTileWidth;
     const int v0 = item.index / camera.num_tile_columns * kRayTileHeight;
-    RayMarcher marcher(volume, step_fraction);
+    RayMarcher marcher(volume);
     for (int i = team.lane(); i < kRayTileWidth * kRayTileHeight; i += team.size()) {
       const int u = u0 + i % kRayTileWidth;
       const int v = v0 + i / kRayTileWidth;
@@ -271,7 +280,7 @@ struct RenderTile {
       const Ray ray = ray_of(camera.world_from_cameras[item.image], u, v);  // read again: registers are for the march
       const int pixel = item.image * camera.num_pixels() + v * camera.width + u;
       const int range = item.image * camera.num_ranges + v / kRangeTilePx * camera.num_range_columns + u / kRangeTilePx;
-      const float depth_m = marcher.march(ray, float_of_bits(near[range]), float_of_bits(far[range]));
+      const float depth_m = ray.is_near_map() ? marcher.march(ray, float_of_bits(near[range]), float_of_bits(far[range])) : 0.0F;
       depths_m[pixel] = depth_m;
       if (colours != nullptr) colours[pixel] = depth_m > 0.0F ? colour_at(marcher.reader(), ray, depth_m) : Rgb8{};
     }
@@ -325,8 +334,10 @@ struct RenderTile {
 
 /// Estimates normals from the points of neighbouring pixels.
 struct EstimateNormal {
+  /// Neighbouring pixels whose depths differ by more than this part of the depth belong to different surfaces (T: fusion_benchmark).
+  static constexpr float kDiscontinuity = 0.04F;
+
   RayCamera camera;
-  float discontinuity;
   const float* depths_m;
   SurfacePixel* pixels;
 
@@ -355,7 +366,7 @@ struct EstimateNormal {
   FOOTHOLD_HD bool difference(const float* image_m, int u, int v, int du, int dv, float centre_m, Eigen::Vector3f& along) const {
     const float before_m = image_m[(v - dv) * camera.width + u - du];
     const float after_m = image_m[(v + dv) * camera.width + u + du];
-    const float limit = discontinuity * centre_m;
+    const float limit = kDiscontinuity * centre_m;
     if (!(std::abs(before_m - centre_m) < limit && std::abs(after_m - centre_m) < limit)) return false;
     along = camera.intrinsics.back_project(static_cast<float>(u + du), static_cast<float>(v + dv), after_m) -
             camera.intrinsics.back_project(static_cast<float>(u - du), static_cast<float>(v - dv), before_m);
@@ -364,8 +375,8 @@ struct EstimateNormal {
 };
 
 template <Device kDevice>
-void RaycasterOps<kDevice>::render(const Context& context, const TsdfView& volume, const RaycasterSettings& settings,
-                                   const Array<SE3>& world_from_cameras, Scratch& scratch, SurfaceMap& map) {
+void RaycasterOps<kDevice>::render(const Context& context, const TsdfView& volume, const Array<SE3>& world_from_cameras, Scratch& scratch,
+                                   SurfaceMap& map) {
   const typename ExecutorOf<kDevice>::Type exec(context);
   const RenderCamera& view = map.camera;
   const std::size_t num_images = world_from_cameras.size();
@@ -388,10 +399,10 @@ void RaycasterOps<kDevice>::render(const Context& context, const TsdfView& volum
   exec.for_each(num_images, PlaceCamera{world_from_cameras.data(), map.world_from_cameras.data(), cameras_from_world});
   exec.for_each(num_ranges, ResetRanges{near, far});
   exec.for_each(num_images * static_cast<std::size_t>(volume.num_blocks), ProjectBlockRange{volume, camera, cameras_from_world, near, far});
-  exec.template for_each_team<NoScratch>(num_images * static_cast<std::size_t>(camera.num_tiles),
-                                         RenderTile{volume, camera, settings.step_fraction, near, far, scratch.depths_m.data(),
-                                                    map.colours.empty() ? nullptr : map.colours.data()});
-  exec.for_each(map.pixels.size(), EstimateNormal{camera, settings.discontinuity, scratch.depths_m.data(), map.pixels.data()});
+  exec.template for_each_team<NoScratch>(
+      num_images * static_cast<std::size_t>(camera.num_tiles),
+      RenderTile{volume, camera, near, far, scratch.depths_m.data(), map.colours.empty() ? nullptr : map.colours.data()});
+  exec.for_each(map.pixels.size(), EstimateNormal{camera, scratch.depths_m.data(), map.pixels.data()});
 }
 
 }  // namespace foothold

@@ -24,8 +24,8 @@ struct RaycasterOps {
   using Scratch = Raycaster::Scratch;
 
   /// Renders from each pose into `map`, whose arrays have their sizes.
-  static void render(const Context& context, const TsdfView& volume, const RaycasterSettings& settings,
-                     const Array<SE3>& world_from_cameras, Scratch& scratch, SurfaceMap& map);
+  static void render(const Context& context, const TsdfView& volume, const Array<SE3>& world_from_cameras, Scratch& scratch,
+                     SurfaceMap& map);
 };
 
 }  // namespace foothold

@@ -22,8 +22,10 @@ struct BlockVertices {
   int first = 0;
 
   static int bit_of(int voxel, int axis) { return voxel * 3 + axis; }
-  /// The vertex on an edge that is crossed.
+  bool is_crossed(int bit) const { return (crossed[bit / 64] >> static_cast<unsigned>(bit % 64) & 1U) != 0; }
+  /// The vertex on an edge. @pre is_crossed(bit)
   int vertex(int bit) const {
+    FOOTHOLD_EXPECTS(is_crossed(bit));
     int before = 0;
     for (int word = 0; word < bit / 64; ++word) before += popcount(crossed[word]);
     return first + before + popcount(crossed[bit / 64] & ((std::uint64_t{1} << static_cast<unsigned>(bit % 64)) - 1));
@@ -59,11 +61,20 @@ class MeshExtractor {
     return true;
   }
 
+  /// Whether cells with surface may have corners in a block: its own cells, and those of the blocks below it, which reach into it.
+  bool is_reached_by_surface(const BlockCoordinates& block) const {
+    for (int i = 0; i < 8; ++i) {
+      const int index = volume_.find(pack_key({block.x - (i & 1), block.y - (i >> 1 & 1), block.z - (i >> 2)}));
+      if (index >= 0 && volume_.surface_octants[index] != 0) return true;
+    }
+    return false;
+  }
+
   void place_vertices(int index) {
     BlockVertices& vertices = blocks_[static_cast<std::size_t>(index)];
     vertices.first = static_cast<int>(mesh_.vertices.size());
-    if (volume_.surface_octants[index] == 0) return;
     const BlockCoordinates block = unpack_key(volume_.block_keys[index]);
+    if (!is_reached_by_surface(block)) return;
     for (int i = 0; i < kBlockVoxels; ++i) {
       const int x = block.x * kBlockSide + (i & 7);
       const int y = block.y * kBlockSide + (i >> 3 & 7);

@@ -248,10 +248,9 @@ struct IntegrateBlock {
       const Eigen::Vector3f point = corner + step * Eigen::Vector3f(static_cast<float>(voxel & 7), static_cast<float>((voxel >> 3) & 7),
                                                                     static_cast<float>(voxel >> 6));
       if (point.z() <= 0.0F) continue;
-      const Eigen::Vector2f pixel = colour_intrinsics.project(point);
-      const int u = floor_to_int(pixel.x() + 0.5F);
-      const int v = floor_to_int(pixel.y() + 0.5F);
-      if (u < 0 || v < 0 || u >= colour.width || v >= colour.height) continue;
+      int u = 0;
+      int v = 0;
+      if (!nearest_pixel(colour_intrinsics.project(point), colour.width, colour.height, u, v)) continue;
       const Rgb8 seen = colour(u, v);
       // Eight bits hold no small increments: a longer memory would freeze the first colours.
       const bool coloured = (block.red[voxel] | block.green[voxel] | block.blue[voxel]) != 0;

@@ -3,6 +3,7 @@
 /// What kernels see of a TsdfVolume: blocks of voxels behind a hash table.
 #pragma once
 
+#include <Eigen/Core>
 #include <cmath>
 #include <cstdint>
 
@@ -66,6 +67,16 @@ FOOTHOLD_HD inline int floor_to_int(float x) {
   return truncated - static_cast<int>(static_cast<float>(truncated) > x);
 }
 
+/// The pixel of an image nearest to a place, or false outside: also for places that no int can name, and for NaN.
+FOOTHOLD_HD inline bool nearest_pixel(const Eigen::Vector2f& place, int width, int height, int& u, int& v) {
+  const float right = place.x() + 0.5F;
+  const float down = place.y() + 0.5F;
+  if (!(right >= 0.0F && down >= 0.0F && right < static_cast<float>(width) && down < static_cast<float>(height))) return false;
+  u = static_cast<int>(right);
+  v = static_cast<int>(down);
+  return true;
+}
+
 /// The slot of a hash table at which the search for a key begins: Fibonacci hashing. Reference: [Knuth1998] Sec. 6.4.
 FOOTHOLD_HD inline std::uint32_t first_slot(std::uint64_t key, int log2_slots) {
   return static_cast<std::uint32_t>((key * 0x9e3779b97f4a7c15ULL) >> static_cast<unsigned>(64 - log2_slots));
@@ -89,8 +100,8 @@ struct TsdfView {
     const std::uint32_t mask = (std::uint32_t{1} << static_cast<unsigned>(log2_slots)) - 1;
     for (std::uint32_t slot = first_slot(key);; slot = (slot + 1) & mask) {
       const std::uint64_t found = slot_keys[slot];
+      if (found == kNoKey) return -1;  // asked first: what lies outside of the world packs to anything, kNoKey, too
       if (found == key) return slot_blocks[slot];
-      if (found == kNoKey) return -1;
     }
   }
 };

@@ -4,9 +4,18 @@
 
 #include <cmath>
 
+#include "foothold/base/error.h"
 #include "view_check_ops.h"
 
 namespace foothold {
+
+void ViewCheckSettings::validate() const {
+  validate_settings(*this);
+  if (min_depth_m >= max_depth_m) {
+    throw InvalidSettings("setting min_depth_m: got " + detail::to_text(min_depth_m) + ", expected less than max_depth_m, " +
+                          detail::to_text(max_depth_m));
+  }
+}
 
 ViewCheck::ViewCheck(const Context& context, const ViewCheckSettings& settings)
     : context_(context), settings_(settings), scratch_(std::make_unique<Scratch>(context.memory())) {

@@ -39,10 +39,9 @@ struct SampleFrame {
   FOOTHOLD_HD float grey_at(int u, int v, float depth_m) const {
     const Eigen::Vector3f point = colour_from_depth * depth_intrinsics.back_project(static_cast<float>(u), static_cast<float>(v), depth_m);
     if (point.z() <= 0.0F) return -1.0F;
-    const Eigen::Vector2f pixel = colour_intrinsics.project(point);
-    const int cu = floor_to_int(pixel.x() + 0.5F);
-    const int cv = floor_to_int(pixel.y() + 0.5F);
-    if (cu < 0 || cv < 0 || cu >= colour.width || cv >= colour.height) return -1.0F;
+    int cu = 0;
+    int cv = 0;
+    if (!nearest_pixel(colour_intrinsics.project(point), colour.width, colour.height, cu, cv)) return -1.0F;
     // The mean over the pixels that this one stands for: renderings are smooth, and single pixels would alias.
     float sum = 0.0F;
     int count = 0;
@@ -105,10 +104,9 @@ struct CompareTile {
     const Eigen::Vector3f point =
         model_from_camera * intrinsics.back_project(static_cast<float>(live_u), static_cast<float>(live_v), live.depth_m);
     if (point.z() <= 0.0F) return;
-    const Eigen::Vector2f pixel = model_intrinsics.project(point);
-    const int u = floor_to_int(pixel.x() + 0.5F);
-    const int v = floor_to_int(pixel.y() + 0.5F);
-    if (u < 0 || v < 0 || u >= model_width || v >= model_height) return;
+    int u = 0;
+    int v = 0;
+    if (!nearest_pixel(model_intrinsics.project(point), model_width, model_height, u, v)) return;
     const int model_pixel = first_pixel + v * model_width + u;
     const float depth_m = models[model_pixel].depth_m;
     if (depth_m <= 0.0F) return;

@@ -94,7 +94,7 @@ class Collector {
         drift_(grade_ * settings.drift_m, grade_ * settings.drift_deg, random),
         examples_(examples),
         volume_(context, fusion.volume),
-        raycaster_(context, fusion.raycaster),
+        raycaster_(context),
         icp_(context, fusion.icp),
         mining_icp_(context, mining_icp(fusion.icp)),
         check_(context, fusion.refiner.check),

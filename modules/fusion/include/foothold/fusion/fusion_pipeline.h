@@ -3,6 +3,7 @@
 /// A whole reconstruction: tracks, judges, relocalises, refines, fuses and trains, frame by frame.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 
 #include "foothold/fusion/pose_refiner.h"
@@ -12,7 +13,6 @@ namespace foothold {
 
 struct FusionSettings {
   TsdfSettings volume;
-  RaycasterSettings raycaster;
   IcpSettings icp;
   RecoverySettings recovery;
   PoseRefinerSettings refiner;
@@ -29,7 +29,6 @@ struct FusionSettings {
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&FusionSettings::volume, "volume");
-    v(&FusionSettings::raycaster, "raycaster");
     v(&FusionSettings::icp, "icp");
     v(&FusionSettings::recovery, "recovery");
     v(&FusionSettings::refiner, "refiner");
@@ -86,7 +85,8 @@ class FusionPipeline : public Persistent {
   /// Sets the pose of the first frame; the identity otherwise. @pre No frame was processed since construction or reset().
   void start_at(const SE3& world_from_camera);
 
-  /// Takes the next frame. The first with depth starts the map. Malformed and empty frames count as lost ones.
+  /// Takes the next frame. The first with depth starts the map. Malformed frames, those without depth in range, and those with a side
+  /// shorter than least_side_px() count as lost ones, about which nobody is asked.
   /// @pre The frame's images live in the context's memory.
   FusionFrameResult process(const Frame& frame);
 
@@ -107,6 +107,8 @@ class FusionPipeline : public Persistent {
   const SurfaceMap& rendering() const { return rendering_; }
   RecoveryState state() const { return policy_.state(); }
   const FusionSettings& settings() const { return settings_; }
+  /// Of images that are smaller, nothing would be left to render.
+  int least_side_px() const { return std::max(settings_.render_divisor, settings_.refiner.coarse_divisor); }
 
  private:
   /// What is known of a frame's pose before the policy decides.
@@ -118,10 +120,11 @@ class FusionPipeline : public Persistent {
   };
 
   void start(const Frame& frame, FusionFrameResult& result);
-  void follow(const Frame& frame, bool well_formed, bool may_track, FusionFrameResult& result);
+  void follow(const Frame& frame, bool usable, bool may_track, FusionFrameResult& result);
   void track(const Frame& frame, Sighting& sighting, FusionFrameResult& result);
   void relocalise(const Frame& frame, Sighting& sighting, FusionFrameResult& result);
-  void learn(const Frame& frame, FusionFrameResult& result);
+  void fuse(const Frame& frame, FusionFrameResult& result);
+  void train(const Frame& frame, FusionFrameResult& result);
   void render(const Frame& frame, FusionFrameResult& result);
 
   Context context_;

@@ -113,6 +113,9 @@ class IcpTracker {
   /// @pre describe_frame_error(frame) is empty, its images live in the context's memory and outlive the calls of track().
   void set_frame(const Frame& frame);
 
+  /// Whether any depth of the frame is in range; waits for the device. Without any, alignment is of no use. @pre set_frame() was called.
+  bool sees_depth();
+
   /// Aligns the frame with a rendering, starting from a guess of its pose.
   /// @return The best pose found; measures.well_posed is false where the data did not determine one.
   /// @pre set_frame() was called; `model` lives in the context's memory and is not empty.

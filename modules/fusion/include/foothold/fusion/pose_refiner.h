@@ -107,7 +107,7 @@ class PoseRefiner {
                        const ClassifierModel& classifier = default_acceptance_classifier());
 
   /// @return The finalists, best first: good ones by texture, then the rest by score. Only the first can be accepted. Empty without
-  /// proposals.
+  /// proposals, and for an image with a side shorter than coarse_divisor.
   /// @pre describe_frame_error(frame) is empty; frame and volume live in the context's memory.
   std::vector<RefinedPose> refine(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals);
 

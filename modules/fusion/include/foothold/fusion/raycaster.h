@@ -53,26 +53,11 @@ struct SurfaceMap {
   std::size_t num_renderings() const { return world_from_cameras.size(); }
 };
 
-struct RaycasterSettings {
-  /// Part of the interpolated distance that a ray advances at once; below 1 because distances were measured along other rays.
-  float step_fraction = 0.8F;
-  /// Neighbouring pixels whose depths differ by more than this part of the depth belong to different surfaces.
-  float discontinuity = 0.04F;
-
-  template <class Visitor>
-  static void fields(Visitor& v) {
-    v(&RaycasterSettings::step_fraction, "step_fraction", "Part of the distance that a ray advances at once (T: fusion_benchmark).",
-      Range{0.1, 1.0});
-    v(&RaycasterSettings::discontinuity, "discontinuity", "Relative jump of depth between two surfaces (T: fusion_benchmark).",
-      Range{0.001, 1.0});
-  }
-  void validate() const { validate_settings(*this); }
-};
-
 /// Finds, along the ray of each pixel, where the map's signed distance falls through zero.
 ///
 /// Rays start and end at the depth range of the surface blocks that project into their tile of the image, cross other blocks in one step,
-/// and interpolate trilinearly only near the surface. Normals come from neighbouring points of the rendering.
+/// and interpolate trilinearly only near the surface. Normals come from neighbouring points of the rendering. Nothing is seen farther than
+/// 2^15 voxels from the camera, 328 m at 1 cm, so that every ray ends soon, wherever blocks lie.
 ///
 /// Determinism: pixels are independent; identical for any number of threads. Reference: [Newcombe2011] Sec. 3.4, [Prisacariu2017] for the
 /// ranges.
@@ -80,8 +65,7 @@ class Raycaster {
  public:
   struct Scratch;  ///< buffers of the implementation
 
-  /// @throws InvalidSettings
-  explicit Raycaster(const Context& context, const RaycasterSettings& settings = {});
+  explicit Raycaster(const Context& context);
   ~Raycaster();
   Raycaster(Raycaster&&) noexcept;
   Raycaster& operator=(Raycaster&&) noexcept;
@@ -97,7 +81,6 @@ class Raycaster {
 
  private:
   Context context_;
-  RaycasterSettings settings_;
   std::unique_ptr<Scratch> scratch_;
 };
 

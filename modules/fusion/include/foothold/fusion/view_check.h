@@ -32,7 +32,7 @@ struct ViewCheckSettings {
     v(&ViewCheckSettings::min_depth_m, "min_depth_m", "Nearer depth is ignored [m] (R).", Range{0.01, 10.0});
     v(&ViewCheckSettings::max_depth_m, "max_depth_m", "Farther depth is ignored [m].", Range{0.1, 100.0});
   }
-  void validate() const { validate_settings(*this); }
+  void validate() const;
 };
 
 /// How a frame compares with a rendering of the map. Fractions are of the compared pixels with depth.
