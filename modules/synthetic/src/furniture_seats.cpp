@@ -49,7 +49,9 @@ Colour Choices::timber() {
   return Colour(0.78F, 0.58F, 0.37F) * light + Colour(0.06F, 0.0F, 0.0F) * between(0.0F, 1.0F);
 }
 
-void table(const RoomBuilder& b, float width, float depth, float height, const Material& top, const Material& legs, std::uint32_t seed) {
+void table(const RoomBuilder& place, float width, float depth, float height, const Material& top, const Material& legs,
+           std::uint32_t seed) {
+  const RoomBuilder b = place.piece();
   b.box({0.0F, -0.5F * depth, height - 0.02F}, {width, depth, 0.04F}, top, seed);
   const float x = 0.5F * width - 0.06F;
   for (const float side : {-x, x}) {
@@ -59,7 +61,8 @@ void table(const RoomBuilder& b, float width, float depth, float height, const M
   b.box({0.0F, -depth + 0.06F, height - 0.09F}, {width - 0.16F, 0.025F, 0.09F}, legs, seed + 3U);
 }
 
-void desk(const RoomBuilder& b, float width, const Material& top, const Material& frame, std::uint32_t seed) {
+void desk(const RoomBuilder& place, float width, const Material& top, const Material& frame, std::uint32_t seed) {
+  const RoomBuilder b = place.piece();
   constexpr float kDepth = 0.75F;
   constexpr float kHeight = 0.73F;
   b.box({0.0F, -0.5F * kDepth, kHeight - 0.015F}, {width, kDepth, 0.03F}, top, seed);
@@ -78,7 +81,8 @@ void desk(const RoomBuilder& b, float width, const Material& top, const Material
   }
 }
 
-void office_chair(const RoomBuilder& b, const Material& cover, std::uint32_t seed) {
+void office_chair(const RoomBuilder& place, const Material& cover, std::uint32_t seed) {
+  const RoomBuilder b = place.piece();
   swivel_base(b, 0.44F);
   b.box({0.0F, 0.0F, 0.48F}, {0.48F, 0.46F, 0.08F}, cover, seed);
   const RoomBuilder back = b.at(0.0F, 0.24F, 0.56F).pitched(-10.0F);
@@ -90,7 +94,8 @@ void office_chair(const RoomBuilder& b, const Material& cover, std::uint32_t see
   }
 }
 
-void wooden_chair(const RoomBuilder& b, const Material& timber, const Material& seat, std::uint32_t seed) {
+void wooden_chair(const RoomBuilder& place, const Material& timber, const Material& seat, std::uint32_t seed) {
+  const RoomBuilder b = place.piece();
   for (const float x : {-0.19F, 0.19F}) {
     b.box({x, -0.18F, 0.22F}, {0.04F, 0.04F, 0.44F}, timber, seed);
     b.box({x, 0.19F, 0.45F}, {0.04F, 0.04F, 0.9F}, timber, seed + 1U);
@@ -100,7 +105,8 @@ void wooden_chair(const RoomBuilder& b, const Material& timber, const Material& 
   b.box({0.0F, -0.18F, 0.2F}, {0.36F, 0.02F, 0.03F}, timber, seed + 4U);
 }
 
-void sofa(const RoomBuilder& b, float width, const Material& cover, const Material& cushion, std::uint32_t seed) {
+void sofa(const RoomBuilder& place, float width, const Material& cover, const Material& cushion, std::uint32_t seed) {
+  const RoomBuilder b = place.piece();
   b.box({0.0F, -0.45F, 0.22F}, {width, 0.85F, 0.3F}, cover, seed);
   b.at(0.0F, -0.12F, 0.3F).pitched(-8.0F).box({0.0F, 0.0F, 0.28F}, {width, 0.2F, 0.56F}, cover, seed + 1U);
   for (const float side : {-1.0F, 1.0F}) {
@@ -122,7 +128,8 @@ void sofa(const RoomBuilder& b, float width, const Material& cover, const Materi
       .box({0.0F, 0.0F, 0.18F}, {0.38F, 0.12F, 0.36F}, cushion, seed + 21U);
 }
 
-void stool(const RoomBuilder& b, float height, const Material& seat, const Material& legs) {
+void stool(const RoomBuilder& place, float height, const Material& seat, const Material& legs) {
+  const RoomBuilder b = place.piece();
   b.cylinder({0.0F, 0.0F, height - 0.04F}, 0.17F, 0.04F, seat, 5);
   for (int leg = 0; leg < 4; ++leg) {
     const RoomBuilder at = b.at(0.0F, 0.0F, 0.0F, 45.0F + 90.0F * static_cast<float>(leg));

@@ -27,7 +27,8 @@ void row_of_books(const RoomBuilder& b, float left, float right, float depth, fl
 
 }  // namespace
 
-void bookcase(const RoomBuilder& b, float width, float height, int num_shelves, float fill, const Material& timber, Choices& choices) {
+void bookcase(const RoomBuilder& place, float width, float height, int num_shelves, float fill, const Material& timber, Choices& choices) {
+  const RoomBuilder b = place.piece();
   constexpr float kDepth = 0.3F;
   constexpr float kBoard = 0.025F;
   const std::uint32_t seed = choices.seed();
@@ -79,7 +80,8 @@ void wall_cabinets(const RoomBuilder& b, int count, float unit_m, float from_z, 
   }
 }
 
-void wardrobe(const RoomBuilder& b, float width, float height, const Material& front, std::uint32_t seed) {
+void wardrobe(const RoomBuilder& place, float width, float height, const Material& front, std::uint32_t seed) {
+  const RoomBuilder b = place.piece();
   b.box({0.0F, -0.28F, 0.5F * height}, {width, 0.56F, height}, front, seed);
   for (const float side : {-0.25F, 0.25F}) {
     b.box({side * width, -0.57F, 0.5F * height + 0.03F}, {0.5F * width - 0.01F, 0.02F, height - 0.1F}, front, seed + 1U);
@@ -87,7 +89,8 @@ void wardrobe(const RoomBuilder& b, float width, float height, const Material& f
   }
 }
 
-void box_stack(const RoomBuilder& b, int count, Choices& choices) {
+void box_stack(const RoomBuilder& place, int count, Choices& choices) {
+  const RoomBuilder b = place.piece();
   float z = 0.0F;
   for (int i = 0; i < count; ++i) {
     const float height = choices.between(0.18F, 0.38F);
@@ -101,13 +104,15 @@ void box_stack(const RoomBuilder& b, int count, Choices& choices) {
   }
 }
 
-void wall_shelf(const RoomBuilder& b, float width, float z, const Material& timber, int num_things, Choices& choices) {
+void wall_shelf(const RoomBuilder& place, float width, float z, const Material& timber, int num_things, Choices& choices) {
+  const RoomBuilder b = place.piece();
   b.box({0.0F, -0.12F, z}, {width, 0.24F, 0.03F}, timber);
   for (const float side : {-0.4F, 0.4F}) b.box({side * width, -0.08F, z - 0.08F}, {0.03F, 0.14F, 0.13F}, plain({0.2F, 0.2F, 0.2F}));
   clutter(b.at(0.0F, -0.12F, z + 0.016F), width - 0.1F, 0.06F, num_things, choices);
 }
 
-void fridge(const RoomBuilder& b, float height, const Colour& colour, Choices& choices) {
+void fridge(const RoomBuilder& place, float height, const Colour& colour, Choices& choices) {
+  const RoomBuilder b = place.piece();
   b.box({0.0F, -0.3F, 0.5F * height}, {0.6F, 0.6F, height}, plain(colour));
   const float split = 0.64F * height;
   b.box({0.0F, -0.62F, 0.5F * split + 0.03F}, {0.59F, 0.04F, split - 0.05F}, plain(colour));
@@ -138,7 +143,8 @@ void oven(const RoomBuilder& b, const Colour& colour) {
   b.rod({-0.14F, -0.27F, 1.02F}, {-0.2F, -0.45F, 1.04F}, 0.012F, plain({0.1F, 0.1F, 0.1F}));
 }
 
-void microwave(const RoomBuilder& b, const Colour& colour) {
+void microwave(const RoomBuilder& place, const Colour& colour) {
+  const RoomBuilder b = place.piece();
   b.box({0.0F, 0.0F, 0.14F}, {0.48F, 0.34F, 0.28F}, plain(colour));
   b.picture({-0.07F, -0.171F, 0.14F}, 0.3F, 0.2F, gloss({0.08F, 0.08F, 0.09F}, 0.5F));
   b.picture({0.17F, -0.171F, 0.14F}, 0.09F, 0.22F, keys({0.75F, 0.75F, 0.75F}, {0.3F, 0.3F, 0.3F}));

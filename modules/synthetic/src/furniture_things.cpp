@@ -10,7 +10,8 @@ const Colour kSteel(0.62F, 0.63F, 0.65F);
 
 }  // namespace
 
-void monitor(const RoomBuilder& b, float width, std::uint32_t picture_seed) {
+void monitor(const RoomBuilder& place, float width, std::uint32_t picture_seed) {
+  const RoomBuilder b = place.piece();
   const float height = 0.6F * width;
   b.cylinder({0.0F, 0.0F, 0.0F}, 0.12F, 0.015F, plain(kBlack));
   b.box({0.0F, 0.02F, 0.12F}, {0.06F, 0.02F, 0.24F}, plain(kBlack));
@@ -19,38 +20,44 @@ void monitor(const RoomBuilder& b, float width, std::uint32_t picture_seed) {
             picture_seed);
 }
 
-void keyboard(const RoomBuilder& b) {
+void keyboard(const RoomBuilder& place) {
+  const RoomBuilder b = place.piece();
   b.box({0.0F, 0.0F, 0.01F}, {0.44F, 0.14F, 0.02F}, keys());
   b.box({0.32F, 0.0F, 0.015F}, {0.06F, 0.1F, 0.03F}, plain({0.15F, 0.15F, 0.16F}));
 }
 
-void mug(const RoomBuilder& b, const Colour& colour) {
+void mug(const RoomBuilder& place, const Colour& colour) {
+  const RoomBuilder b = place.piece();
   b.cylinder({0.0F, 0.0F, 0.0F}, 0.04F, 0.095F, plain(colour));
   b.cylinder({0.0F, 0.0F, 0.0951F}, 0.034F, 0.001F, plain({0.2F, 0.12F, 0.07F}));
   b.box({0.05F, 0.0F, 0.05F}, {0.03F, 0.012F, 0.055F}, plain(colour));
 }
 
-void bottle(const RoomBuilder& b, const Colour& colour, float height) {
+void bottle(const RoomBuilder& place, const Colour& colour, float height) {
+  const RoomBuilder b = place.piece();
   b.cylinder({0.0F, 0.0F, 0.0F}, 0.15F * height, 0.62F * height, gloss(colour, 0.85F));
   b.cylinder({0.0F, 0.0F, 0.2F * height}, 0.152F * height, 0.25F * height, print({0.9F, 0.88F, 0.8F}, 0.4F * colour, 0.02F));
   b.sphere({0.0F, 0.0F, 0.62F * height}, 0.149F * height, gloss(colour, 0.85F));
   b.cylinder({0.0F, 0.0F, 0.7F * height}, 0.055F * height, 0.3F * height, gloss(0.7F * colour, 0.85F));
 }
 
-void desk_lamp(const RoomBuilder& b, const Colour& colour) {
+void desk_lamp(const RoomBuilder& place, const Colour& colour) {
+  const RoomBuilder b = place.piece();
   b.cylinder({0.0F, 0.0F, 0.0F}, 0.09F, 0.02F, plain(colour));
   b.rod({0.0F, 0.0F, 0.02F}, {0.1F, 0.05F, 0.28F}, 0.012F, gloss(kSteel));
   b.rod({0.1F, 0.05F, 0.28F}, {-0.08F, -0.1F, 0.44F}, 0.012F, gloss(kSteel));
   b.rod({-0.08F, -0.1F, 0.46F}, {-0.13F, -0.16F, 0.37F}, 0.065F, plain(colour));
 }
 
-void floor_lamp(const RoomBuilder& b, const Colour& shade) {
+void floor_lamp(const RoomBuilder& place, const Colour& shade) {
+  const RoomBuilder b = place.piece();
   b.cylinder({0.0F, -0.2F, 0.0F}, 0.14F, 0.03F, plain(kBlack));
   b.cylinder({0.0F, -0.2F, 0.03F}, 0.014F, 1.45F, gloss(kSteel));
   b.cylinder({0.0F, -0.2F, 1.38F}, 0.2F, 0.28F, fabric(shade, 0.2F));
 }
 
-void plant(const RoomBuilder& b, float height, const Colour& pot, Choices& choices) {
+void plant(const RoomBuilder& place, float height, const Colour& pot, Choices& choices) {
+  const RoomBuilder b = place.piece();
   const float r = 0.16F * height;
   b.cylinder({0.0F, 0.0F, 0.0F}, 0.75F * r, 0.28F * height, plaster(pot, 0.5F, 0.15F));
   b.cylinder({0.0F, 0.0F, 0.281F * height}, 0.68F * r, 0.002F, speckle({0.25F, 0.18F, 0.12F}, {0.1F, 0.07F, 0.05F}));
@@ -64,12 +71,14 @@ void plant(const RoomBuilder& b, float height, const Colour& pot, Choices& choic
   }
 }
 
-void bin(const RoomBuilder& b, const Colour& colour) {
+void bin(const RoomBuilder& place, const Colour& colour) {
+  const RoomBuilder b = place.piece();
   b.cylinder({0.0F, 0.0F, 0.0F}, 0.14F, 0.32F, plain(colour, 0.4F));
   b.cylinder({0.0F, 0.0F, 0.3201F}, 0.13F, 0.001F, speckle({0.5F, 0.5F, 0.5F}, {0.1F, 0.1F, 0.1F}, 1.0F));
 }
 
-void books_lying(const RoomBuilder& b, int count, Choices& choices) {
+void books_lying(const RoomBuilder& place, int count, Choices& choices) {
+  const RoomBuilder b = place.piece();
   float z = 0.0F;
   for (int i = 0; i < count; ++i) {
     const float thickness = choices.between(0.015F, 0.045F);
@@ -81,7 +90,7 @@ void books_lying(const RoomBuilder& b, int count, Choices& choices) {
 }
 
 void small_thing(const RoomBuilder& b, Choices& choices) {
-  const RoomBuilder at = b.at(0.0F, 0.0F, 0.0F, choices.between(0.0F, 360.0F));
+  const RoomBuilder at = b.piece().at(0.0F, 0.0F, 0.0F, choices.between(0.0F, 360.0F));
   const Colour colour = choices.colour();
   const Colour accent = choices.colour();
   const float size = choices.between(0.0F, 1.0F);
@@ -143,13 +152,15 @@ void window(const RoomBuilder& b, float width, float height, float sill_z, std::
   b.box({0.0F, -0.1F, sill_z - 0.05F}, {width + 0.2F, 0.2F, 0.03F}, speckle({0.8F, 0.8F, 0.78F}, {0.5F, 0.5F, 0.5F}, 0.4F), seed);
 }
 
-void framed_picture(const RoomBuilder& b, float width, float height, float centre_z, Choices& choices) {
+void framed_picture(const RoomBuilder& place, float width, float height, float centre_z, Choices& choices) {
+  const RoomBuilder b = place.piece();
   b.box({0.0F, -0.015F, centre_z}, {width + 0.06F, 0.03F, height + 0.06F}, wood(choices.timber()));
   const Colour ground = choices.colour();
   b.picture({0.0F, -0.031F, centre_z}, width, height, poster(ground, choices.colour()));
 }
 
-void whiteboard(const RoomBuilder& b, float width, float centre_z, std::uint32_t seed) {
+void whiteboard(const RoomBuilder& place, float width, float centre_z, std::uint32_t seed) {
+  const RoomBuilder b = place.piece();
   b.box({0.0F, -0.012F, centre_z}, {width, 0.024F, 0.9F}, gloss({0.6F, 0.6F, 0.62F}, 0.9F));
   b.picture({0.0F, -0.025F, centre_z}, width - 0.05F, 0.85F, print({0.9F, 0.9F, 0.92F}, {0.15F, 0.2F, 0.6F}, 0.06F), seed);
   b.box({0.0F, -0.05F, centre_z - 0.46F}, {0.5F * width, 0.08F, 0.02F}, gloss({0.6F, 0.6F, 0.62F}, 0.9F));

@@ -52,6 +52,12 @@ RoomBuilder RoomBuilder::against_south(float along) const { return at(-along, ro
 RoomBuilder RoomBuilder::against_east(float along) const { return at(room_->high_world.x(), -along, 0.0F, -90.0F); }
 RoomBuilder RoomBuilder::against_west(float along) const { return at(room_->low_world.x(), along, 0.0F, 90.0F); }
 
+RoomBuilder RoomBuilder::piece() const {
+  RoomBuilder result = *this;
+  result.piece_ = room_->num_pieces++;
+  return result;
+}
+
 void RoomBuilder::box(const Vector3f& centre, const Vector3f& size, const Material& material, std::uint32_t seed) const {
   add(Shape::kBox, {Eigen::Matrix3f::Identity(), centre}, 0.5F * size, material, seed);
 }
@@ -102,7 +108,7 @@ void RoomBuilder::add(Shape shape, const SE3& frame_from_local, const Vector3f& 
   SE3 world_from_local = world_from_frame_ * frame_from_local;
   world_from_local.rotation = nearest_rotation(world_from_local.rotation);
   const auto own = static_cast<std::uint32_t>(1000U + 16U * room_->primitives.size());
-  room_->primitives.push_back({shape, world_from_local, half_size, material, seed == kOwnPattern ? own : seed});
+  room_->primitives.push_back({shape, world_from_local, half_size, material, seed == kOwnPattern ? own : seed, piece_});
 }
 
 }  // namespace foothold::synthetic_detail

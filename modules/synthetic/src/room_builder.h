@@ -42,6 +42,9 @@ class RoomBuilder {
   RoomBuilder against_east(float along) const;
   RoomBuilder against_west(float along) const;
 
+  /// This frame for a piece of furniture of its own: what is put into it can be moved or taken away.
+  RoomBuilder piece() const;
+
   void box(const Eigen::Vector3f& centre, const Eigen::Vector3f& size, const Material& material, std::uint32_t seed = kOwnPattern) const;
   /// An upright cylinder on a place.
   void cylinder(const Eigen::Vector3f& base, float radius, float height, const Material& material, std::uint32_t seed = kOwnPattern) const;
@@ -66,6 +69,7 @@ class RoomBuilder {
 
   Room* room_;
   SE3 world_from_frame_;
+  std::int32_t piece_ = Primitive::kFixture;
 };
 
 }  // namespace foothold::synthetic_detail

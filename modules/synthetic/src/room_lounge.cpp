@@ -16,7 +16,8 @@ void curtain(const RoomBuilder& b, float width, const Material& cloth) {
   b.rod({-0.5F * width - 0.1F, -0.1F, 2.28F}, {0.5F * width + 0.1F, -0.1F, 2.28F}, 0.015F, wood({0.4F, 0.28F, 0.18F}));
 }
 
-void television(const RoomBuilder& b, const Material& timber, Choices& choices) {
+void television(const RoomBuilder& place, const Material& timber, Choices& choices) {
+  const RoomBuilder b = place.piece();
   b.box({0.0F, -0.22F, 0.25F}, {1.6F, 0.42F, 0.42F}, timber, 40);
   for (const float x : {-0.53F, 0.0F, 0.53F}) b.box({x, -0.435F, 0.25F}, {0.5F, 0.015F, 0.36F}, plain({0.8F, 0.79F, 0.75F}));
   b.box({0.0F, -0.2F, 0.9F}, {1.1F, 0.05F, 0.64F}, gloss({0.08F, 0.08F, 0.09F}, 0.6F));

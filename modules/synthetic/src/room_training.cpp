@@ -126,7 +126,7 @@ Material any_material(Choices& choices) {
 /// A pile of boxes, balls and drums in any position, so that not everything stands square on a floor.
 void shapes(const RoomBuilder& b, float width, int count, Choices& choices) {
   for (int i = 0; i < count; ++i) {
-    const RoomBuilder place = choices.jitter(b, 0.4F * width, choices.between(0.1F, 0.6F), 180.0F);
+    const RoomBuilder place = choices.jitter(b.piece(), 0.4F * width, choices.between(0.1F, 0.6F), 180.0F);
     const float tilt_deg = choices.between(-60.0F, 60.0F);
     const RoomBuilder at = place.pitched(tilt_deg).rolled(choices.between(-60.0F, 60.0F));
     const Material material = any_material(choices);

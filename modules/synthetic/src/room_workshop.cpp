@@ -44,7 +44,7 @@ void workbench(const RoomBuilder& b, float width, Choices& choices) {
   box_stack(b.at(-0.25F * width, -0.35F, 0.27F), 1, choices);
   box_stack(b.at(0.22F * width, -0.35F, 0.27F), 1, choices);
   // A vice.
-  const RoomBuilder vice = b.at(-0.4F * width, -0.62F, 0.88F, 10.0F);
+  const RoomBuilder vice = b.piece().at(-0.4F * width, -0.62F, 0.88F, 10.0F);
   vice.box({0.0F, 0.0F, 0.07F}, {0.12F, 0.16F, 0.14F}, plain({0.15F, 0.3F, 0.5F}, 0.4F));
   vice.box({0.0F, -0.14F, 0.1F}, {0.14F, 0.04F, 0.1F}, plain({0.15F, 0.3F, 0.5F}, 0.4F));
   vice.rod({0.0F, -0.26F, 0.07F}, {0.0F, 0.0F, 0.07F}, 0.015F, gloss(kIron));
@@ -53,7 +53,8 @@ void workbench(const RoomBuilder& b, float width, Choices& choices) {
   b.target({0.25F * width, -0.35F, 1.0F});
 }
 
-void ladder(const RoomBuilder& b) {
+void ladder(const RoomBuilder& place) {
+  const RoomBuilder b = place.piece();
   const Material alloy = gloss({0.68F, 0.69F, 0.7F}, 0.9F);
   const RoomBuilder lean = b.at(0.0F, -0.45F, 0.0F).pitched(-12.0F);
   for (const float x : {-0.2F, 0.2F}) lean.box({x, 0.0F, 1.05F}, {0.03F, 0.06F, 2.1F}, alloy);
@@ -62,7 +63,8 @@ void ladder(const RoomBuilder& b) {
 }
 
 /// A pillar drill.
-void drill(const RoomBuilder& b) {
+void drill(const RoomBuilder& place) {
+  const RoomBuilder b = place.piece();
   const Material green = plain({0.18F, 0.4F, 0.28F}, 0.4F);
   b.box({0.0F, -0.3F, 0.05F}, {0.4F, 0.5F, 0.1F}, green);
   b.cylinder({0.0F, -0.15F, 0.1F}, 0.05F, 1.5F, gloss({0.6F, 0.6F, 0.62F}, 0.9F));
@@ -77,7 +79,8 @@ void drill(const RoomBuilder& b) {
   b.target({0.0F, -0.3F, 1.2F});
 }
 
-void barrel(const RoomBuilder& b, const Colour& colour) {
+void barrel(const RoomBuilder& place, const Colour& colour) {
+  const RoomBuilder b = place.piece();
   b.cylinder({0.0F, 0.0F, 0.0F}, 0.28F, 0.88F, plaster(colour, 0.7F, 0.3F));
   for (const float z : {0.02F, 0.3F, 0.58F, 0.84F}) b.cylinder({0.0F, 0.0F, z}, 0.292F, 0.025F, plain(0.6F * colour));
   b.picture({0.0F, -0.2805F, 0.45F}, 0.18F, 0.2F, print({0.85F, 0.8F, 0.3F}, {0.1F, 0.1F, 0.1F}, 0.03F));
@@ -93,7 +96,7 @@ void crate_rack(const RoomBuilder& b, Choices& choices) {
     for (int i = 0; i < 4; ++i) {
       if (choices.chance(0.2F)) continue;
       const float height = choices.between(0.14F, 0.34F);
-      const RoomBuilder at = choices.jitter(b.at(-0.54F + 0.36F * static_cast<float>(i), -0.22F, z + 0.015F), 0.02F, 0.0F, 8.0F);
+      const RoomBuilder at = choices.jitter(b.piece().at(-0.54F + 0.36F * static_cast<float>(i), -0.22F, z + 0.015F), 0.02F, 0.0F, 8.0F);
       const Colour colour = choices.colour();
       at.box({0.0F, 0.0F, 0.5F * height}, {0.3F, 0.36F, height}, plain(colour, 0.3F));
       at.picture({0.0F, -0.181F, 0.5F * height}, 0.12F, 0.06F, print({0.9F, 0.9F, 0.9F}, {0.1F, 0.1F, 0.1F}, 0.012F));

@@ -57,6 +57,9 @@ struct Primitive {
   Eigen::Vector3f half_size_m = Eigen::Vector3f::Ones();
   Material material;
   std::uint32_t seed = 0;  ///< varies the pattern; equal seeds give equal patterns
+  /// The number of the piece of furniture that it is a part of, or kFixture for what belongs to the building.
+  std::int32_t piece = kFixture;
+  static constexpr std::int32_t kFixture = -1;
 };
 
 /// A lamp that shines equally in all directions and casts no shadows.
@@ -77,6 +80,7 @@ struct Room {
   Eigen::Vector3f eye_high_world{1.0F, 1.0F, 1.8F};  ///< the camera's centre stays within about this box
   std::vector<Eigen::Vector3f> targets_world;        ///< what a person would point the camera at
   std::uint64_t seed = 0;                            ///< decides the trajectories
+  std::int32_t num_pieces = 0;                       ///< of furniture; Primitive::piece is below it
 };
 
 /// The names of the test rooms. Training rooms, "training-0", "training-1" and so on, come on top without limit.
