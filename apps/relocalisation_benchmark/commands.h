@@ -32,5 +32,7 @@ Command add_failures_command(CLI::App& app);
 Command add_kidnap_command(CLI::App& app);
 /// "scale": recall, time and memory against the number of places learnt in one world.
 Command add_scale_command(CLI::App& app);
+/// "dwell": recall, time and memory after standing still.
+Command add_dwell_command(CLI::App& app);
 
 }  // namespace foothold::benchmark

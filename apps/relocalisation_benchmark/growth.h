@@ -3,10 +3,12 @@
 /// What becomes of accuracy, time and memory as more is learnt: one point for each amount.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "json_parts.h"
+#include "places.h"
 
 namespace foothold::benchmark {
 
@@ -26,9 +28,19 @@ struct GrowthPoint {
   Spread last_train_ms;   ///< of what was learnt last
 };
 
+/// How the tests of a run ended. @param places  What was learnt; tests of input i show place i.
+BeliefCounts count_beliefs(const RunLog& log, const std::vector<Place>& places);
+
+/// The durations of learning frames [begin, end).
+Spread train_spread(const RunLog& log, std::size_t begin, std::size_t end);
+
+/// Puts the tests of runs together as one, test inputs and memory one after another.
+MethodResult joined(const std::vector<MethodResult>& runs);
+
 /// One method.
 struct GrowthCurve {
   std::string method;
+  std::optional<GrowthPoint> alone;  ///< every tested place learnt and tested by itself, its memory summed
   std::vector<GrowthPoint> points;
 };
 
@@ -38,5 +50,7 @@ std::string growth_table(const std::vector<GrowthCurve>& curves, const std::stri
 Json growth_json(const std::vector<GrowthCurve>& curves, const std::string& amount_key);
 /// A line per method and amount.
 std::string growth_csv(const std::vector<GrowthCurve>& curves, const std::string& amount_key);
+/// Charts of recall and acceptance, time and memory over the amount, as a PNG file. @throws FileError
+void write_growth_plot(const std::string& path, const std::vector<GrowthCurve>& curves, const std::string& amount_name);
 
 }  // namespace foothold::benchmark

@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/app_main.h"
 #include "foothold/base/contract.h"
+#include "foothold/base/error.h"
+#include "run_methods.h"
 
 namespace foothold::benchmark {
 namespace {
@@ -42,6 +45,24 @@ Rgb8 mean_colour(const Image<Rgb8>& colour, int first_u, int first_v, int size) 
 }
 
 }  // namespace
+
+FrameList read_frames(const EvaluationInput& input, const Eigen::Vector3f& moved_by_m) {
+  FrameList frames;
+  const std::unique_ptr<FrameSource> source = input.open();
+  while (true) {
+    if (apps::interrupted()) throw Interrupted{};
+    auto frame = std::make_shared<RgbdFrame>();
+    const ReadStatus status = source->read(*frame);
+    if (status == ReadStatus::kTimedOut) continue;
+    if (status == ReadStatus::kEnd) break;
+    if (!frame->world_from_camera.has_value())
+      throw FileError(input.name + ", frame " + std::to_string(frame->index) + ": has no true pose; expected one for every frame");
+    frame->world_from_camera->translation += moved_by_m;
+    frames.push_back(std::move(frame));
+  }
+  if (frames.empty()) throw FileError(input.name + ": has no frames; expected at least one");
+  return frames;
+}
 
 EvaluationInput memory_input(const std::string& name, FrameList frames) {
   const int num_frames = static_cast<int>(frames.size());

@@ -3,6 +3,7 @@
 /// Frames held in memory, so that decoding does not disturb what is timed.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,6 +13,10 @@
 namespace foothold::benchmark {
 
 using FrameList = std::vector<std::shared_ptr<const RgbdFrame>>;
+
+/// Reads all frames of an input into memory, their poses moved.
+/// @throws Interrupted; FileError naming a frame that has no true pose, or the input if it has no frames.
+FrameList read_frames(const EvaluationInput& input, const Eigen::Vector3f& moved_by_m = Eigen::Vector3f::Zero());
 
 /// Plays frames that are in memory.
 EvaluationInput memory_input(const std::string& name, FrameList frames);

@@ -50,10 +50,14 @@ void add_experiment_options(CLI::App& command, CommonOptions& options) {
   command.add_option("--csv", options.csv_file, "Write a line per tested frame to FILE")->type_name("FILE");
 }
 
+void add_plot_option(CLI::App& command, CommonOptions& options, const std::string& help) {
+  command.add_option("--plot", options.plot_file, help)->type_name("FILE");
+}
+
 void add_common_options(CLI::App& command, CommonOptions& options) {
   add_forest_option(command, options);
   add_experiment_options(command, options);
-  command.add_option("--plot", options.plot_file, "Draw recall over time and the trajectory to FILE.png")->type_name("FILE");
+  add_plot_option(command, options, "Draw recall over time and the trajectory to FILE.png");
   command
       .add_option("--estimates", options.estimates_file,
                   "Write the estimated poses to FILE; with several methods, to FILE.METHOD.EXTENSION")

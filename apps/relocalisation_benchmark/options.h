@@ -36,6 +36,8 @@ struct CommonOptions {
 void add_common_options(CLI::App& command, CommonOptions& options);
 /// Those that experiments on several scenes take too: all but --forest, --plot and --estimates.
 void add_experiment_options(CLI::App& command, CommonOptions& options);
+/// --plot, with what it draws.
+void add_plot_option(CLI::App& command, CommonOptions& options, const std::string& help);
 /// --forest for experiments with one forest.
 void add_forest_option(CLI::App& command, CommonOptions& options);
 

@@ -11,7 +11,6 @@
 
 #include "common/progress_bar.h"
 #include "foothold/base/contract.h"
-#include "foothold/base/error.h"
 #include "foothold/io/sequence_player.h"
 #include "foothold/synthetic/synthetic_sequence.h"
 
@@ -45,20 +44,9 @@ struct Job {
 
 void load(const Job& job) {
   for (const EvaluationInput& input : *job.inputs) {
-    const std::unique_ptr<FrameSource> source = input.open();
-    while (true) {
-      if (apps::interrupted()) throw Interrupted{};
-      auto frame = std::make_shared<RgbdFrame>();
-      const ReadStatus status = source->read(*frame);
-      if (status == ReadStatus::kTimedOut) continue;
-      if (status == ReadStatus::kEnd) break;
-      if (!frame->world_from_camera.has_value())
-        throw FileError(input.name + ", frame " + std::to_string(frame->index) + ": has no true pose; expected one for every frame");
-      frame->world_from_camera->translation += job.origin_world;
-      job.frames->push_back(std::move(frame));
-    }
+    const FrameList frames = read_frames(input, job.origin_world);
+    job.frames->insert(job.frames->end(), frames.begin(), frames.end());
   }
-  if (job.frames->empty()) throw FileError(job.inputs->front().name + ": has no frames; expected at least one");
 }
 
 /// Runs jobs on several threads; the first exception ends all.

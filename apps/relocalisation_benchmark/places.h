@@ -43,7 +43,7 @@ Eigen::Vector2i grid_field(int k);
 /// @throws Interrupted; FileError naming the frame if one has no true pose, or a scene without frames.
 std::vector<Place> load_places(const std::vector<Scene>& scenes, float spacing_m, int num_tested, int num_threads);
 
-/// The place whose learnt camera positions come nearest to a position. @pre A place was learnt.
+/// The place whose learnt camera positions come nearest to a position; 0 without any.
 std::size_t nearest_place(const std::vector<Place>& places, const Eigen::Vector3f& position_world);
 
 }  // namespace foothold::benchmark

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "chart.h"
 #include "common/canvas.h"
 #include "foothold/base/contract.h"
 #include "foothold/evaluation/text_table.h"
@@ -32,20 +33,9 @@ constexpr int kLongestWindow = 50;
 
 constexpr Rgb8 kInk = {40, 40, 40};
 constexpr Rgb8 kFaint = {222, 222, 222};
-// Told apart by people who are colour blind too. Reference: [Okabe2008].
-constexpr Rgb8 kMethodColours[] = {{0, 114, 178}, {230, 159, 0}, {204, 121, 167}, {86, 180, 233}, {0, 0, 0}};
 constexpr Rgb8 kFoundColour = {0, 158, 115};
 constexpr Rgb8 kWrongColour = {213, 94, 0};
 constexpr Rgb8 kLostColour = {110, 110, 110};
-
-struct Box {
-  double left = 0.0;
-  double top = 0.0;
-  double right = 0.0;
-  double bottom = 0.0;
-};
-
-Rgb8 method_colour(std::size_t method) { return kMethodColours[method % std::size(kMethodColours)]; }
 
 std::string percent(double fraction) { return format_number(100.0 * fraction, 1) + " %"; }
 
@@ -53,16 +43,6 @@ double found_fraction(const MethodResult& method) {
   const auto is_found = [](const TestRecord& test) { return test.within(kFoundThreshold); };
   const auto num_found = std::count_if(method.log.tests.begin(), method.log.tests.end(), is_found);
   return static_cast<double>(num_found) / static_cast<double>(std::max<std::size_t>(1, method.log.tests.size()));
-}
-
-/// A round step that divides [0, extent] into at most `most` parts: 1, 2 or 5 times a power of ten.
-double round_step(double extent, int most) {
-  const double least = std::max(extent, 1e-9) / most;
-  const double power = std::pow(10.0, std::floor(std::log10(least)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= least) return factor * power;
-  }
-  return 10.0 * power;
 }
 
 /// Recall over the last `window` tests, at each test.
@@ -85,7 +65,7 @@ double draw_legend(Canvas& canvas, const BenchmarkResult& result, cv::Point2d ri
     const std::string label = result.methods[i].name + " " + percent(found_fraction(result.methods[i]));
     canvas.text({x, right_end.y}, label, kLabelHeight, kInk, TextAlign::kRight);
     x -= Canvas::text_width(label, kLabelHeight) + 8.0;
-    canvas.line({x - 22.0, right_end.y}, {x, right_end.y}, method_colour(i), 3.0);
+    canvas.line({x - 22.0, right_end.y}, {x, right_end.y}, curve_colour(i), 3.0);
     x -= 22.0 + 20.0;
   }
   return x;
@@ -147,7 +127,7 @@ std::string title_of(const BenchmarkResult& result) {
   return title;
 }
 
-void draw_chart(Canvas& canvas, const BenchmarkResult& result) {
+void draw_recall(Canvas& canvas, const BenchmarkResult& result) {
   const std::vector<TestRecord>& tests = result.methods.front().log.tests;
   const int window = std::clamp(static_cast<int>(tests.size()) / 10, 1, kLongestWindow);
   canvas.text({kMargin, kMargin}, "Found within 5 cm and 5 deg, over the last " + std::to_string(window) + " tests", kTitleHeight, kInk);
@@ -163,7 +143,7 @@ void draw_chart(Canvas& canvas, const BenchmarkResult& result) {
           box.left + (box.right - box.left) * static_cast<double>(test) / std::max(1.0, static_cast<double>(recall.size()) - 1.0);
       points.push_back({x, box.bottom - (box.bottom - box.top) * recall[test]});
     }
-    canvas.polyline(points, method_colour(i), 2.0);
+    canvas.polyline(points, curve_colour(i), 2.0);
   }
 }
 
@@ -264,7 +244,7 @@ Image<Rgb8> draw_result(const BenchmarkResult& result) {
   const double width = (kWidth - kMargin * (num_columns + 1)) / num_columns;
   const double height = map_height(positions_m, width);
   Canvas canvas(kWidth, static_cast<int>(kChartHeight + legend_height + num_rows * height));
-  draw_chart(canvas, result);
+  draw_recall(canvas, result);
   draw_map_legend(canvas, kChartHeight + 12.0);
   for (int i = 0; i < num_maps; ++i) {
     const double left = kMargin + (i % num_columns) * (width + kMargin);

@@ -52,32 +52,9 @@ std::vector<Scene> scenes_to_learn(ScaleOptions options) {
   return scenes;
 }
 
-BeliefCounts count_beliefs(const RunLog& log, const std::vector<Place>& places) {
-  BeliefCounts counts;
-  for (const TestRecord& test : log.tests) {
-    if (!test.best.has_value() || test.best->confidence < log.acceptance_threshold) {
-      ++counts.num_unsure;
-    } else if (test.within(kWrongThreshold)) {
-      ++counts.num_right;
-    } else {
-      const std::size_t shown = static_cast<std::size_t>(test.input_index);
-      const bool here = nearest_place(places, test.best->world_from_camera.translation) == shown;
-      ++(here ? counts.num_wrong_here : counts.num_wrong_place);
-    }
-  }
-  return counts;
-}
-
-/// The durations of a part of the training, [begin, end) in frames.
-Spread train_spread(const RunLog& log, std::size_t begin, std::size_t end) {
-  const auto& ms = log.train.wall_ms;
-  return spread_of({ms.begin() + static_cast<std::ptrdiff_t>(begin), ms.begin() + static_cast<std::ptrdiff_t>(end)});
-}
-
-/// Learns the first places from nothing, and tests those of them that have tests.
-GrowthPoint run_amount(const ScaleOptions& options, const Method& method, const MethodInputs& inputs, const std::vector<Place>& all,
-                       int amount) {
-  const std::vector<Place> places(all.begin(), all.begin() + amount);
+/// Learns places from nothing, and tests those of them that have tests.
+GrowthPoint run_places(const ScaleOptions& options, const Method& method, const MethodInputs& inputs, const std::vector<Place>& places,
+                       const std::string& label) {
   std::vector<EvaluationInput> training;
   std::vector<EvaluationInput> tests;
   for (const Place& place : places) {
@@ -88,14 +65,42 @@ GrowthPoint run_amount(const ScaleOptions& options, const Method& method, const 
     return run_train_test(relocaliser, training, tests, options.scenes.num_settling_updates, protocol_options);
   };
   GrowthPoint point;
-  point.amount = amount;
-  const std::string label = method.name + ", " + std::to_string(amount) + (amount == 1 ? " place" : " places");
-  point.result = run_method(method, inputs, options.scenes.common, protocol, label);
+  point.amount = static_cast<int>(places.size());
+  point.result = run_method(method, inputs, options.scenes.common, protocol, method.name + ", " + label);
   point.beliefs = count_beliefs(point.result.log, places);
   const std::size_t num_trained = point.result.log.train.wall_ms.size();
   point.first_train_ms = train_spread(point.result.log, 0, places.front().training.size());
   point.last_train_ms = train_spread(point.result.log, num_trained - places.back().training.size(), num_trained);
   return point;
+}
+
+/// Each tested place learnt and tested by itself: what many places are held against.
+GrowthPoint run_alone(const ScaleOptions& options, const Method& method, const MethodInputs& inputs, const std::vector<Place>& places) {
+  std::vector<MethodResult> runs;
+  GrowthPoint all;
+  for (const Place& place : places) {
+    if (place.tests.empty()) continue;
+    const GrowthPoint one = run_places(options, method, inputs, {place}, place.name + " alone");
+    all.beliefs.num_right += one.beliefs.num_right;
+    all.beliefs.num_unsure += one.beliefs.num_unsure;
+    all.beliefs.num_wrong_here += one.beliefs.num_wrong_here;
+    runs.push_back(one.result);
+  }
+  all.amount = 1;
+  all.result = joined(runs);
+  all.first_train_ms = all.last_train_ms = all.result.report.train.wall_ms;
+  return all;
+}
+
+GrowthCurve run_curve(const ScaleOptions& options, const Method& method, const MethodInputs& inputs, const std::vector<Place>& places) {
+  GrowthCurve curve;
+  curve.method = method.name;
+  curve.alone = run_alone(options, method, inputs, places);
+  for (const int amount : options.amounts) {
+    const std::string label = std::to_string(amount) + (amount == 1 ? " place" : " places");
+    curve.points.push_back(run_places(options, method, inputs, {places.begin(), places.begin() + amount}, label));
+  }
+  return curve;
 }
 
 Json places_json(const std::vector<Place>& places) {
@@ -131,12 +136,7 @@ int run_scale(ScaleOptions options) {
   std::vector<Place> places;
   try {
     places = load_places(scenes, options.spacing_m, options.num_tested, options.scenes.common.device.num_threads);
-    for (const Method& method : methods) {
-      curves.push_back({method.name, {}});
-      for (const int amount : options.amounts) {
-        curves.back().points.push_back(run_amount(options, method, inputs, places, amount));
-      }
-    }
+    for (const Method& method : methods) curves.push_back(run_curve(options, method, inputs, places));
   } catch (const Interrupted&) {
     return apps::kInterrupted;
   }
@@ -146,6 +146,10 @@ int run_scale(ScaleOptions options) {
   json["places"] = places_json(places);
   json["methods"] = growth_json(curves, "places");
   std::printf("%s", write_documents(options.scenes.common, json, growth_csv(curves, "places")).c_str());
+  if (!options.scenes.common.plot_file.empty()) {
+    write_growth_plot(options.scenes.common.plot_file, curves, "places learnt");
+    std::printf("picture: %s\n", options.scenes.common.plot_file.c_str());
+  }
   return apps::kSuccess;
 }
 
@@ -185,6 +189,7 @@ Command add_scale_command(CLI::App& app) {
       ->capture_default_str();
   add_forest_option(*command, options->scenes.common);
   add_experiment_options(*command, options->scenes.common);
+  add_plot_option(*command, options->scenes.common, "Draw recall, time and memory against the number of places to FILE.png");
   return {command, [options] { return run_scale(*options); }};
 }
 

@@ -61,6 +61,35 @@ class ScaleTest(PlacesTest):
         self.check_refused("scale", *SCENES, "--rooms", "3", says=["--rooms", "3", "2"])
         self.check_refused("scale", "--method", "none", says=["none", "forest"])
 
+    def test_every_place_is_also_learnt_alone(self):
+        method = self.run_json(*ROOMS, "--rooms", "2", "--plot", "plot.png")["methods"]["forest"]
+        self.assertEqual((method["alone"]["num_trained"], method["alone"]["num_tested"]), (12, 6))
+        self.assertEqual(method["alone"]["beliefs"]["wrong_place"], 0)
+        self.assertEqual((self.folder / "plot.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+
+class DwellTest(PlacesTest):
+    arguments = ["dwell", "--sequence", "synthetic:kitchen?frames=24&width=160&height=120", "--stay", "0:3", "--learn", "12:18"]
+
+    def test_a_point_for_each_number_of_standing_frames(self):
+        results = self.run_json(*self.arguments, "--test", "18:24", "--standing", "0,9", "--method", "forest,ferns", "--csv", "points.csv", "--plot", "plot.png")
+        self.assertEqual(results["protocol"], "dwell")
+        for method in results["methods"].values():
+            self.assertEqual([(p["standing_frames"], p["num_trained"], p["num_tested"]) for p in method["points"]], [(0, 6, 6), (9, 15, 6)])
+            self.assertIsNone(method["points"][0]["timing"]["first_train_ms"]["median"])
+            self.assertIsNotNone(method["points"][1]["timing"]["first_train_ms"]["median"])
+        self.assertEqual(len((self.folder / "points.csv").read_text().splitlines()), 1 + 4)
+        self.assertEqual((self.folder / "plot.png").read_bytes()[:8], b"\x89PNG\r\n\x1a\n")
+
+    def test_equal_options_give_equal_accuracy_on_any_number_of_threads(self):
+        runs = [self.run_json(*self.arguments, "--test", "18:24", "--standing", 5, "--threads", threads) for threads in (1, 2)]
+        self.assertEqual(without_timing(runs[0]), without_timing(runs[1]))
+
+    def test_wrong_arguments(self):
+        self.check_refused("dwell", says="--sequence")
+        self.check_refused(*self.arguments, "--test", "18:30", says=["18:30", "24 frames"])
+        self.check_refused(*self.arguments, "--test", "18:24", "--standing", "-1", says="--standing")
+
 
 if __name__ == "__main__":
     app_support.main()

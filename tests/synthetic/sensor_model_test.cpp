@@ -153,5 +153,33 @@ TEST_CASE("sensor_model: level 2 is noisier than level 1, and other levels do no
   REQUIRE_THROWS_AS(sensor_model(3), ContractViolation);
 }
 
+TEST_CASE("add_noise: spreads a wall as the disparity's noise demands, differs from frame to frame and keeps holes") {
+  const SensorModel model = sensor_model(1);
+  constexpr float kWall_m = 3.0F;
+  Image<float> depth(kWidth, kHeight);
+  Image<Rgb8> colour(kWidth, kHeight);
+  for (std::size_t i = 0; i < depth.size(); ++i) depth.data()[i] = kWall_m;
+  for (std::size_t i = 0; i < colour.size(); ++i) colour.data()[i] = {128, 128, 128};
+  depth(3, 4) = 0.0F;
+  Image<float> first = depth;
+  Image<float> second = depth;
+  Image<Rgb8> first_colour = colour;
+  Image<Rgb8> second_colour = colour;
+  add_noise(model, 1, 0, first, first_colour);
+  add_noise(model, 1, 1, second, second_colour);
+  const double expected_m = static_cast<double>(kWall_m * kWall_m * model.disparity_sigma_px / model.focal_baseline_px_m);
+  REQUIRE(spread(first).mean_m == Approx(static_cast<double>(kWall_m)).margin(0.2 * expected_m));
+  REQUIRE(spread(first).sigma_m == Approx(expected_m).epsilon(0.1));  // the generator's normal numbers are approximate
+  REQUIRE(first(3, 4) == 0.0F);
+  REQUIRE(first(5, 5) != second(5, 5));
+  double sum2 = 0.0;
+  for (std::size_t i = 0; i < colour.size(); ++i) sum2 += std::pow(first_colour.data()[i].g - 128.0, 2);
+  REQUIRE(std::sqrt(sum2 / static_cast<double>(colour.size())) == Approx(static_cast<double>(model.colour_sigma)).epsilon(0.1));
+  Image<float> again = depth;
+  Image<Rgb8> again_colour = colour;
+  add_noise(model, 1, 0, again, again_colour);
+  REQUIRE(again(5, 5) == first(5, 5));
+}
+
 }  // namespace
 }  // namespace foothold

@@ -188,4 +188,22 @@ RenderedView measure(const SensorModel& model, const Room& room, RenderedView id
   return ideal;
 }
 
+void add_noise(const SensorModel& model, std::uint64_t seed, int frame, Image<float>& depth, Image<Rgb8>& colour) {
+  FOOTHOLD_EXPECTS(depth.width() == colour.width() && depth.height() == colour.height());
+  const std::uint64_t frame_seed = derive_seed(seed, static_cast<std::uint64_t>(frame));
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    const std::uint64_t bits = mix_bits(frame_seed + i);
+    float& z = depth.data()[i];
+    if (is_valid_depth(z))
+      z = model.focal_baseline_px_m / std::max(model.focal_baseline_px_m / z + model.disparity_sigma_px * normal_of(bits, 0), 1.0F);
+    Rgb8& pixel = colour.data()[i];
+    unsigned shift = 8;  // channels share some noise, as in measure()
+    for (std::uint8_t* channel : {&pixel.r, &pixel.g, &pixel.b}) {
+      const float value = static_cast<float>(*channel) + model.colour_sigma * normal_of(bits, shift);
+      *channel = static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F);
+      shift += 12;
+    }
+  }
+}
+
 }  // namespace foothold

@@ -43,4 +43,11 @@ SensorModel sensor_model(int noise_level);
 /// @return       The measured view; depth 0 marks holes.
 RenderedView measure(const SensorModel& model, const Room& room, RenderedView ideal, std::uint64_t seed, int frame);
 
+/// Adds the noise of another exposure to a frame that may have some: to disparity and to colour, per pixel. Holes stay, and nothing is
+/// quantised.
+/// @param seed   Equal seeds and frames add equal noise.
+/// @param frame  Number of the frame; noise is independent from frame to frame.
+/// @pre Both images have one size.
+void add_noise(const SensorModel& model, std::uint64_t seed, int frame, Image<float>& depth, Image<Rgb8>& colour);
+
 }  // namespace foothold
