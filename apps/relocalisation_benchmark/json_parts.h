@@ -20,7 +20,7 @@ Json interval_json(const Interval& interval);
 Json spread_json(const Spread& spread);
 Json novelty_json(const std::vector<NoveltyBin>& bins);
 
-/// Nests {"pose.seed", "42"} as {"pose": {"seed": 42}}.
+/// Nests {"pose.pool_size", "4000"} as {"pose": {"pool_size": 4000}}.
 Json nested(const std::vector<std::pair<std::string, std::string>>& settings);
 
 /// Format, version, protocol, settings and machine: the beginning of every document.

@@ -47,10 +47,8 @@ std::vector<Method> list_methods() {
 }  // namespace
 
 void set_seeds(BenchmarkSettings& settings, std::uint64_t seed) {
-  for (ForestRelocaliserSettings* forest : {&settings.forest, &settings.paper}) {
-    forest->seed = seed;
-    forest->pose.seed = seed;
-  }
+  settings.forest.seed = seed;
+  settings.paper.seed = seed;
   settings.ferns.seed = seed;
   settings.random_forest.seed = seed;
 }

@@ -74,7 +74,6 @@ void add_replay_options(CLI::App& app, ReplayOptions& options) {
 ReplaySettings replay_settings(const ReplayOptions& options) {
   ReplaySettings settings;
   settings.forest.seed = options.kidnaps.seed;
-  settings.forest.pose.seed = options.kidnaps.seed;
   settings.ferns.seed = options.kidnaps.seed;
   settings.random_forest.seed = options.kidnaps.seed;
   if (options.voxel_size_m > 0.0F) {

@@ -80,11 +80,11 @@ class LossTest(app_support.AppTest):
         self.assertEqual(tested, [6, 8, 10])
 
     def test_settings_come_from_preset_file_and_set_in_this_order(self):
-        (self.folder / "settings.json").write_text('{"forest": {"pose": {"num_hypotheses": 64, "round_samples": 100}}, "ferns": {"num_ferns": 64}}')
-        arguments = ["--sequence", ROOM, "--frames", ":3", "--settings", "settings.json", "--set", "forest.pose.round_samples=200"]
+        (self.folder / "settings.json").write_text('{"forest": {"pose": {"num_hypotheses": 64, "pool_size": 1000}}, "ferns": {"num_ferns": 64}}')
+        arguments = ["--sequence", ROOM, "--frames", ":3", "--settings", "settings.json", "--set", "forest.pose.pool_size=2000"]
         results = self.run_loss("--method", "forest,ferns", "--preset", "paper", *arguments)
         pose = results["methods"]["forest"]["settings"]["pose"]
-        self.assertEqual((pose["num_hypotheses"], pose["round_samples"]), (64, 200))
+        self.assertEqual((pose["num_hypotheses"], pose["pool_size"]), (64, 2000))
         self.assertEqual(results["methods"]["forest"]["settings"]["reservoirs"]["capacity"], 1024)
         self.assertEqual(results["methods"]["ferns"]["settings"]["num_ferns"], 64)
 

@@ -124,9 +124,6 @@ TEST_CASE("CUDA: the paper's settings give the CPU's poses") {
   settings.clustering.leaves_per_frame = 512;
   settings.pose.pool_size = 1500;
   settings.pose.num_hypotheses = 64;
-  settings.pose.max_draws = 1000;
-  settings.pose.cull_survivors = 16;
-  settings.pose.refinement_iterations = 4;
   Rig host(Device::kCpu, settings);
   for (std::size_t i = 0; i < 16; ++i) host.train(i % 8);
   Rig device(Device::kCuda, settings);

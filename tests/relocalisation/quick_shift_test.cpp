@@ -34,8 +34,8 @@ struct Cluster {
 /// Really Quick Shift by its definition, in double precision: largest clusters first, small ones dropped.
 std::vector<Cluster> naive_quick_shift(const Cloud& cloud, const ClusteringSettings& settings) {
   const std::size_t n = cloud.size();
-  const double sigma = static_cast<double>(settings.sigma_m);
-  const double tau = static_cast<double>(settings.tau_m);
+  const double sigma = static_cast<double>(kDensitySigmaM);
+  const double tau = static_cast<double>(kLongestLinkM);
   std::vector<Eigen::Vector3d> points;
   for (const ReservoirPoint& p : cloud) points.emplace_back(p.x_mm * 1e-3, p.y_mm * 1e-3, p.z_mm * 1e-3);
   std::vector<double> density(n, 0.0);

@@ -17,7 +17,6 @@ constexpr int kWidth = 160;
 constexpr int kHeight = 120;
 constexpr float kWallM = 2.0F;
 constexpr Intrinsics kCamera{146.0F, 146.0F, 80.0F, 60.0F};
-constexpr int kMaxColourDifference = 30;
 
 /// A grey wall right in front of the camera.
 std::vector<FeaturePixel> wall() {
@@ -35,7 +34,7 @@ SceneEvidence judge(const std::vector<FeaturePixel>& pixels, const std::vector<R
   SceneEvidence evidence{-1.0F, -1.0F, -1.0F};
   const HypothesesView hypotheses{&scene_from_camera, nullptr, &order};
   const auto num_points = static_cast<int>(points.size());
-  JudgeCandidates<CpuExecutor>{image, kCamera, points.data(), num_points, kMaxColourDifference, hypotheses, &evidence}(CpuTeam{}, 0);
+  JudgeCandidates<CpuExecutor>{image, kCamera, points.data(), num_points, hypotheses, &evidence}(CpuTeam{}, 0);
   return evidence;
 }
 

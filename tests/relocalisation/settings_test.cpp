@@ -8,6 +8,7 @@
 #include <string>
 
 #include "foothold/relocalisation/forest.h"
+#include "pose/search_plan.h"
 #include "support/catch.h"
 #include "support/error_message.h"
 
@@ -29,8 +30,6 @@ const Values kTuned = {
     {"reservoirs.capacity", "112"},
     {"reservoirs.grid_spacing_px", "8"},
     {"reservoirs.jitter", "true"},
-    {"clustering.sigma_m", "0.1"},
-    {"clustering.tau_m", "0.05"},
     {"clustering.min_cluster_size", "8"},
     {"clustering.max_modes", "10"},
     {"clustering.covariance_floor_m", "0.005"},
@@ -39,30 +38,8 @@ const Values kTuned = {
     {"clustering.point_budget", "16000"},
     {"pose.pool_size", "4000"},
     {"pose.num_hypotheses", "512"},
-    {"pose.max_draws", "100"},
-    {"pose.max_colour_difference", "30"},
-    {"pose.min_triple_spread_m", "0.3"},
-    {"pose.max_rigidity_error_m", "0.05"},
-    {"pose.scan_modes", "true"},
-    {"pose.cull_samples", "500"},
-    {"pose.first_cull_samples", "100"},
-    {"pose.first_cull_survivors", "256"},
-    {"pose.cull_survivors", "32"},
-    {"pose.round_samples", "250"},
-    {"pose.energy_truncation", "3"},
-    {"pose.refinement_radius_m", "0.2"},
-    {"pose.refinement_iterations", "3"},
-    {"pose.final_iterations", "4"},
-    {"pose.alignment_iterations", "5"},
-    {"pose.alignment_samples", "1200"},
-    {"pose.first_alignment_radius_m", "0.06"},
-    {"pose.last_alignment_radius_m", "0.04"},
-    {"pose.ranking_points", "2048"},
-    {"pose.projection_points", "8192"},
-    {"pose.projection_iterations", "4"},
-    {"pose.projection_distance_m", "0.08"},
     {"pose.num_candidates", "16"},
-    {"pose.seed", "42"},
+    {"pose.as_published", "false"},
     {"acceptance_threshold", "0.9"},
     {"num_rolls", "8"},
     {"sure_confidence", "0.97"},
@@ -71,29 +48,10 @@ const Values kTuned = {
 
 /// What the paper, or its authors' code, has instead.
 const Values kPaperDiffers = {
-    {"features.downscale", "1"},
-    {"reservoirs.capacity", "1024"},
-    {"reservoirs.grid_spacing_px", "4"},
-    {"reservoirs.jitter", "false"},
-    {"clustering.min_cluster_size", "20"},
-    {"clustering.covariance_floor_m", "0.02"},
-    {"clustering.touched_first", "false"},
-    {"clustering.leaves_per_frame", "256"},
-    {"clustering.point_budget", "0"},
-    {"pose.num_hypotheses", "1024"},
-    {"pose.max_draws", "6000"},
-    {"pose.max_rigidity_error_m", "0.025"},
-    {"pose.scan_modes", "false"},
-    {"pose.first_cull_samples", "500"},
-    {"pose.cull_survivors", "64"},
-    {"pose.round_samples", "500"},
-    {"pose.energy_truncation", "1000000"},
-    {"pose.refinement_iterations", "10"},
-    {"pose.final_iterations", "10"},
-    {"pose.alignment_iterations", "0"},
-    {"pose.ranking_points", "0"},
-    {"pose.projection_points", "0"},
-    {"num_rolls", "1"},
+    {"features.downscale", "1"},           {"reservoirs.capacity", "1024"},        {"reservoirs.grid_spacing_px", "4"},
+    {"reservoirs.jitter", "false"},        {"clustering.min_cluster_size", "20"},  {"clustering.covariance_floor_m", "0.02"},
+    {"clustering.touched_first", "false"}, {"clustering.leaves_per_frame", "256"}, {"clustering.point_budget", "0"},
+    {"pose.num_hypotheses", "1024"},       {"pose.as_published", "true"},          {"num_rolls", "1"},
 };
 
 const Values kRandomForest = {
@@ -113,12 +71,41 @@ TEST_CASE("ForestRelocaliserSettings: the preset 'paper' holds the paper's value
   Values expected = kTuned;
   for (const auto& [path, value] : kPaperDiffers) expected[path] = value;
   const ForestRelocaliserSettings paper = ForestRelocaliserSettings::preset("paper");
-  Values found = values_of(paper);
-  // 1e6 may be written either way.
-  REQUIRE(paper.pose.energy_truncation == 1e6F);
-  found["pose.energy_truncation"] = expected["pose.energy_truncation"];
-  REQUIRE(found == expected);
+  REQUIRE(values_of(paper) == expected);
   REQUIRE_NOTHROW(paper.validate());
+}
+
+TEST_CASE("SearchPlan: the numbers of the paper and of its authors' code, and the tuned ones") {
+  const SearchPlan tuned(PoseEstimatorSettings{}, 7);
+  REQUIRE(tuned.seed == 7);
+  REQUIRE(tuned.max_draws == 100);
+  REQUIRE(tuned.max_rigidity_error_m == 0.05F);
+  REQUIRE(tuned.scan_modes);
+  REQUIRE(tuned.first_cull_samples == 100);
+  REQUIRE(tuned.cull_survivors == 32);
+  REQUIRE(tuned.round_samples == 250);
+  REQUIRE(tuned.energy_truncation == 3.0F);
+  REQUIRE(tuned.round_iterations == 3);
+  REQUIRE(tuned.final_iterations == 4);
+  REQUIRE(tuned.confronts_scene);
+  const SearchPlan paper(ForestRelocaliserSettings::preset("paper").pose, 7);
+  REQUIRE(paper.max_draws == 6000);
+  REQUIRE(paper.max_rigidity_error_m == 0.025F);
+  REQUIRE_FALSE(paper.scan_modes);
+  REQUIRE(paper.first_cull_samples == kCullSamples);
+  REQUIRE(paper.cull_survivors == 64);
+  REQUIRE(paper.round_samples == 500);
+  REQUIRE(paper.energy_truncation == 1e6F);
+  REQUIRE(paper.round_iterations == 10);
+  REQUIRE(paper.final_iterations == 10);
+  REQUIRE_FALSE(paper.confronts_scene);
+}
+
+TEST_CASE("SearchPlan: returns no more candidates than hypotheses are drawn") {
+  PoseEstimatorSettings settings;
+  settings.num_hypotheses = 20;
+  settings.num_candidates = 64;
+  REQUIRE(SearchPlan(settings, 1).num_candidates == 20);
 }
 
 TEST_CASE("ForestRelocaliserSettings: an unknown preset is refused, and the known ones named") {
@@ -174,19 +161,8 @@ TEST_CASE("RandomForestSettings: make_random_forest names every field that is ou
 
 TEST_CASE("ForestRelocaliserSettings: validate names fields that contradict each other") {
   ForestRelocaliserSettings settings;
-  settings.pose.first_cull_samples = 501;
-  std::string message = test::error_message<InvalidSettings>([&] { settings.validate(); });
-  REQUIRE(test::contains(message, "pose.first_cull_samples"));
-  REQUIRE(test::contains(message, "501"));
-  REQUIRE(test::contains(message, "pose.cull_samples = 500"));
-  settings = {};
-  settings.pose.pool_size = 499;
-  message = test::error_message<InvalidSettings>([&] { settings.validate(); });
-  REQUIRE(test::contains(message, "pose.cull_samples"));
-  REQUIRE(test::contains(message, "pose.pool_size = 499"));
-  settings = {};
   settings.clustering.min_cluster_size = 113;
-  message = test::error_message<InvalidSettings>([&] { settings.validate(); });
+  const std::string message = test::error_message<InvalidSettings>([&] { settings.validate(); });
   REQUIRE(test::contains(message, "clustering.min_cluster_size"));
   REQUIRE(test::contains(message, "113"));
   REQUIRE(test::contains(message, "reservoirs.capacity = 112"));

@@ -67,7 +67,7 @@ struct ForestRelocaliser::State {
         examples(context.memory()),
         reservoirs(context, forest.num_leaves(), settings.reservoirs, settings.seed),
         modes(context, forest.num_leaves(), settings.clustering),
-        estimator(context, settings.pose) {}
+        estimator(context, SearchPlan(settings.pose, settings.seed)) {}
 
   /// @param explanation  Output: what the answer was made from; nullptr for none.
   std::vector<PoseEstimate> answer(const Frame& frame, Explanation* explanation);

@@ -15,6 +15,9 @@ inline constexpr int kMaxReservoir = 1024;  ///< of ReservoirSettings::capacity
 inline constexpr int kMaxModes = 64;        ///< of ClusteringSettings::max_modes
 static_assert(kMaxReservoir % 16 == 0, "points are processed in vectors");
 
+inline constexpr float kDensitySigmaM = 0.1F;  ///< (R) standard deviation of the density kernel
+inline constexpr float kLongestLinkM = 0.05F;  ///< (R) from a point to its parent of higher density
+
 /// Shared by the lanes of a team: the points of one leaf and what becomes of them.
 struct QuickShiftScratch {
   float key_mm[kMaxReservoir];  ///< coordinate along the longest axis; rising, once sorted
@@ -127,7 +130,7 @@ struct QuickShift {
 
   /// Parzen density with a Gaussian kernel cut off at three sigma.
   FOOTHOLD_HD void estimate_densities() const {
-    const float sigma_mm = settings.sigma_m * 1000.0F;
+    constexpr float sigma_mm = kDensitySigmaM * 1000.0F;
     const float cutoff_mm2 = 9.0F * sigma_mm * sigma_mm;
     const float scale = 0.5F / (sigma_mm * sigma_mm);
     for (int first = team.lane() * kWidth; first < num_points; first += team.size() * kWidth) {
@@ -151,7 +154,7 @@ struct QuickShift {
 
   /// The nearest point of higher density within tau; equal densities are ordered by position.
   FOOTHOLD_HD void link_to_parents() const {
-    const float tau_mm = settings.tau_m * 1000.0F;
+    constexpr float tau_mm = kLongestLinkM * 1000.0F;
     for (int first = team.lane() * kWidth; first < num_points; first += team.size() * kWidth) {
       int begin = 0;
       int end = 0;

@@ -151,31 +151,35 @@ void estimate_surfaces(const Executor& executor, const PoseQuery& query, const C
 template <class Executor>
 class Aligner {
  public:
-  Aligner(const Context& context, const PoseQuery& query, const ForestView& forest, const PoseEstimatorSettings& settings)
-      : executor_(context), query_(query), num_trees_(forest.num_trees), settings_(settings) {}
+  Aligner(const Context& context, const PoseQuery& query, const ForestView& forest)
+      : executor_(context), query_(query), num_trees_(forest.num_trees) {}
 
   void run(const CorrespondencePool& pool, const Ranking& ranking, Hypotheses& hypotheses, Alignment& alignment) const {
     AlignmentState* const state = alignment.state.data();
     executor_.for_each(1, BeginAlignment{hypotheses.view(), state});
-    for (int i = 0; i < settings_.projection_iterations && settings_.projection_points > 0; ++i) project(i, ranking, state);
-    for (int i = 0; i < settings_.alignment_iterations; ++i) approach(i, pool, alignment);
+    for (int i = 0; i < kProjectionSteps; ++i) project(i, ranking, state);
+    for (int i = 0; i < kLeafSteps; ++i) approach(i, pool, alignment);
     executor_.for_each(1, EndAlignment{state, hypotheses.view(), alignment.misfits.data()});
   }
 
  private:
+  static constexpr int kProjectionSteps = 4;            ///< (T)
+  static constexpr float kProjectionDistanceM = 0.08F;  ///< (T) reach of a projected point; twice that in the first half of the steps
+  static constexpr int kLeafSteps = 5;                  ///< (T)
+  static constexpr float kFirstReachM = 0.06F;          ///< (T) of a sample, in the first of these steps
+  static constexpr float kLastReachM = 0.04F;           ///< (T) in the last
+
   void project(int step, const Ranking& ranking, AlignmentState* state) const {
-    const float distance_m = settings_.projection_distance_m * (2 * step < settings_.projection_iterations ? 2.0F : 1.0F);
+    const float distance_m = kProjectionDistanceM * (2 * step < kProjectionSteps ? 2.0F : 1.0F);
     executor_.for_each_team(
-        1, AlignByProjection<Executor>{surface_estimator(query_), ranking.points.data(), settings_.projection_points, distance_m, state});
+        1, AlignByProjection<Executor>{surface_estimator(query_), ranking.points.data(), kRememberedPoints, distance_m, state});
   }
 
   void approach(int step, const CorrespondencePool& pool, Alignment& alignment) const {
     const auto num_samples = static_cast<int>(alignment.surfaces.size());
-    const int num_used = 2 * step < settings_.alignment_iterations ? num_samples / 3 : num_samples;  // few samples suffice at first
-    const float progress =
-        settings_.alignment_iterations > 1 ? static_cast<float>(step) / static_cast<float>(settings_.alignment_iterations - 1) : 1.0F;
-    const float radius_m =
-        settings_.first_alignment_radius_m + (settings_.last_alignment_radius_m - settings_.first_alignment_radius_m) * progress;
+    const int num_used = 2 * step < kLeafSteps ? num_samples / 3 : num_samples;  // few samples suffice at first
+    const float progress = static_cast<float>(step) / static_cast<float>(kLeafSteps - 1);
+    const float radius_m = kFirstReachM + (kLastReachM - kFirstReachM) * progress;
     executor_.for_each(static_cast<std::size_t>(num_used) * static_cast<std::size_t>(num_trees_),
                        MeasureOffset{query_.reservoirs, num_trees_, pool.sampled.size(), pool.leaves.data(), alignment.surfaces.data(),
                                      1000.0F * radius_m, alignment.state.data(), alignment.offsets.data()});
@@ -186,7 +190,6 @@ class Aligner {
   Executor executor_;
   const PoseQuery& query_;
   int num_trees_;
-  const PoseEstimatorSettings& settings_;
 };
 
 }  // namespace foothold

@@ -19,8 +19,8 @@ struct PoseCandidate {
   float inlier_fraction = 0.0F;        ///< pooled pixels with a mode within kInlierDistanceM, among all pooled pixels with depth
   float fine_fraction = 0.0F;          ///< the same within kFineInlierDistanceM
   float surface_fit = 0.0F;            ///< how well samples lie on the remembered surface, 0 to 1; 0 for candidates that were not aligned
-  float contradicted_fraction = 0.0F;  ///< SceneEvidence's; 0 without ranking_points
-  float alike_fraction = 0.0F;         ///< SceneEvidence's; 0 without ranking_points
+  float contradicted_fraction = 0.0F;  ///< SceneEvidence's; 0 if the plan does not confront the scene
+  float alike_fraction = 0.0F;         ///< SceneEvidence's; 0 if the plan does not confront the scene
   std::int32_t valid = 0;
 };
 static_assert(sizeof(PoseCandidate) == 76, "copied from the device");

@@ -10,11 +10,8 @@
 namespace foothold {
 
 /// The probability that a candidate is within 10 cm and 10 deg of the truth, by logistic regression.
-///
-/// (T) The last line was fitted to 995 relocalisations with the default and the data-free forest: RedKitchen seq-01 (gap 30 and halves),
-/// TUM fr3 teddy (halves), four rendered rooms rolled by 60 or 90 deg, and queries from other scenes than the one learnt; its intercept was
-/// then lowered by 1.2, since wrong answers cost more than missing ones. The lines for candidates that were not aligned or not judged were
-/// fitted before, on 973 relocalisations of the two real recordings with the data-free forest.
+/// (T) Fitted to relocalisations of two real recordings and of rendered rooms, queries from other scenes among them; the last line's
+/// intercept was then lowered by 1.2, since wrong answers cost more than missing ones.
 inline float confidence_of(const PoseCandidate& candidate) {
   const float log_inliers = std::log(candidate.inlier_fraction + 0.01F);
   const float log_fine = std::log(candidate.fine_fraction + 0.005F);

@@ -8,12 +8,15 @@
 
 #include "foothold/base/random.h"
 #include "foothold/base/span.h"
-#include "foothold/relocalisation/settings.h"
 #include "pose/hypotheses.h"
 #include "pose/kabsch.h"
 #include "pose/pool.h"
+#include "pose/search_plan.h"
 
 namespace foothold {
+
+inline constexpr int kMaxColourDifference = 30;   ///< (R) grey levels, in any channel, of a pixel to its mode
+inline constexpr float kMinTripleSpreadM = 0.3F;  ///< (P) between two points of a triple
 
 FOOTHOLD_HD inline Eigen::Vector3f point_of(const PooledPixel& pixel) {
   return {pixel.point_camera[0], pixel.point_camera[1], pixel.point_camera[2]};
@@ -35,13 +38,13 @@ FOOTHOLD_HD inline int colour_difference(const std::uint8_t* a, const std::uint8
 template <class Executor>
 struct DrawHypothesis {
   CorrespondencePoolView pool;
-  PoseEstimatorSettings settings;
+  SearchPlan plan;
   HypothesesView hypotheses;
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t i) const {
     const std::uint32_t num_pixels = *pool.num_pixels;
-    const int num_draws = num_pixels < 3 ? 0 : settings.max_draws;
-    const Random random(settings.seed, i);
+    const int num_draws = num_pixels < 3 ? 0 : plan.max_draws;
+    const Random random(plan.seed, i);
     for (int first = 0; first < num_draws; first += team.size()) {
       const int draw = first + team.lane();
       Random sequence = random.ahead(static_cast<std::uint64_t>(draw));
@@ -67,12 +70,12 @@ struct DrawHypothesis {
     for (int k = 0; k < 3; ++k) {
       const PooledPixel& pixel = pool.pixels[random.below(num_pixels)];
       camera[k] = point_of(pixel);
-      const Mode* mode = settings.scan_modes && k > 0 ? find_rigid_mode(random, pixel, camera, scene, k)
-                                                      : pool.modes + pixel.first_mode + random.below(pixel.num_modes);
+      const Mode* mode = plan.scan_modes && k > 0 ? find_rigid_mode(random, pixel, camera, scene, k)
+                                                  : pool.modes + pixel.first_mode + random.below(pixel.num_modes);
       if (mode == nullptr) return false;
-      if (k == 0 && colour_difference(pixel.rgb, mode->rgb) > settings.max_colour_difference) return false;  // check 1
+      if (k == 0 && colour_difference(pixel.rgb, mode->rgb) > kMaxColourDifference) return false;  // check 1
       scene[k] = mean_of(*mode);
-      if (!settings.scan_modes && !is_rigid_with(camera, scene, k)) return false;
+      if (!plan.scan_modes && !is_rigid_with(camera, scene, k)) return false;
     }
     return fit_rigid_to_triple(camera, scene, scene_from_camera);
   }
@@ -82,8 +85,8 @@ struct DrawHypothesis {
     for (int j = 0; j < k; ++j) {
       const float in_camera = (camera[k] - camera[j]).norm();
       const float in_scene = (scene[k] - scene[j]).norm();
-      if (in_camera < settings.min_triple_spread_m || in_scene < settings.min_triple_spread_m) return false;
-      if (std::fabs(in_camera - in_scene) > settings.max_rigidity_error_m) return false;
+      if (in_camera < kMinTripleSpreadM || in_scene < kMinTripleSpreadM) return false;
+      if (std::fabs(in_camera - in_scene) > plan.max_rigidity_error_m) return false;
     }
     return true;
   }
@@ -92,7 +95,7 @@ struct DrawHypothesis {
   FOOTHOLD_HD const Mode* find_rigid_mode(Random& random, const PooledPixel& pixel, const Eigen::Vector3f* camera, Eigen::Vector3f* scene,
                                           int k) const {
     for (int j = 0; j < k; ++j) {
-      if ((camera[k] - camera[j]).norm() < settings.min_triple_spread_m) return nullptr;
+      if ((camera[k] - camera[j]).norm() < kMinTripleSpreadM) return nullptr;
     }
     const Mode* chosen = nullptr;
     std::uint32_t num_rigid = 0;
@@ -135,10 +138,9 @@ struct MakeEnergyKey {
 
 /// Draws hypotheses, whose order is that of their numbers.
 template <class Executor>
-void draw_hypotheses(const Executor& executor, const CorrespondencePoolView& pool, const PoseEstimatorSettings& settings,
-                     Hypotheses& hypotheses) {
-  const auto num_hypotheses = static_cast<std::size_t>(settings.num_hypotheses);
-  executor.for_each_team(num_hypotheses, DrawHypothesis<Executor>{pool, settings, hypotheses.view()});
+void draw_hypotheses(const Executor& executor, const CorrespondencePoolView& pool, const SearchPlan& plan, Hypotheses& hypotheses) {
+  const auto num_hypotheses = static_cast<std::size_t>(plan.num_hypotheses);
+  executor.for_each_team(num_hypotheses, DrawHypothesis<Executor>{pool, plan, hypotheses.view()});
   executor.for_each(num_hypotheses, MakeEnergyKey{hypotheses.view(), true});
 }
 

@@ -13,16 +13,15 @@ namespace foothold {
 extern template struct PoseAlgorithms<CudaExecutor>;
 #endif
 
-PoseBuffers::PoseBuffers(MemoryKind memory, const PoseEstimatorSettings& settings)
-    : pool(memory, settings.pool_size),
-      hypotheses(memory, settings.num_hypotheses),
-      assignments(memory, settings.cull_survivors, settings.pool_size),
-      ranking(memory, std::max(settings.ranking_points, settings.projection_points), settings.num_hypotheses),
-      alignment(memory, std::min(settings.alignment_samples, settings.pool_size), settings.num_candidates),
-      candidates(memory, static_cast<std::size_t>(std::min(settings.num_candidates, settings.num_hypotheses))) {}
+PoseBuffers::PoseBuffers(MemoryKind memory, const SearchPlan& plan)
+    : pool(memory, plan.pool_size),
+      hypotheses(memory, plan.num_hypotheses),
+      assignments(memory, plan.cull_survivors, plan.pool_size),
+      ranking(memory, plan.confronts_scene ? kRememberedPoints : 0, plan.num_hypotheses),
+      alignment(memory, plan.confronts_scene ? std::min(kAlignmentSamples, plan.pool_size) : 0, plan.num_candidates),
+      candidates(memory, static_cast<std::size_t>(plan.num_candidates)) {}
 
-PoseEstimator::PoseEstimator(const Context& context, const PoseEstimatorSettings& settings)
-    : settings_(settings), buffers_(context.memory(), settings) {}
+PoseEstimator::PoseEstimator(const Context& context, const SearchPlan& plan) : plan_(plan), buffers_(context.memory(), plan) {}
 
 void PoseEstimator::make_room_for(const PoseQuery& query, const ForestView& forest) {
   buffers_.pool.make_room(forest.num_trees, query.leaf_modes.modes.max_blocks * kModeBlockSize);
@@ -31,7 +30,7 @@ void PoseEstimator::make_room_for(const PoseQuery& query, const ForestView& fore
 
 void PoseEstimator::prepare(const Context& context, const PoseQuery& query) {
   const ScopedStage stage(context, "relocalise/prepare");
-  dispatch(context, [&](auto on) { PoseAlgorithms<typename decltype(on)::Executor>::prepare(context, query, settings_, buffers_); });
+  dispatch(context, [&](auto on) { PoseAlgorithms<typename decltype(on)::Executor>::prepare(context, query, plan_, buffers_); });
 }
 
 std::vector<std::uint32_t> PoseEstimator::count_hypotheses(const Context& context, const PoseQuery& query,
@@ -43,7 +42,7 @@ std::vector<std::uint32_t> PoseEstimator::count_hypotheses(const Context& contex
   for (std::size_t i = 0; i < forests.size(); ++i) {
     make_room_for(query, forests[i]);
     dispatch(context, [&](auto on) {
-      PoseAlgorithms<typename decltype(on)::Executor>::screen(context, query, forests[i], settings_, buffers_, counts.data() + i);
+      PoseAlgorithms<typename decltype(on)::Executor>::screen(context, query, forests[i], plan_, buffers_, counts.data() + i);
     });
   }
   return counts.to_host(context);
@@ -51,8 +50,7 @@ std::vector<std::uint32_t> PoseEstimator::count_hypotheses(const Context& contex
 
 std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const PoseQuery& query, const ForestView& forest) {
   make_room_for(query, forest);
-  dispatch(context,
-           [&](auto on) { PoseAlgorithms<typename decltype(on)::Executor>::estimate(context, query, forest, settings_, buffers_); });
+  dispatch(context, [&](auto on) { PoseAlgorithms<typename decltype(on)::Executor>::estimate(context, query, forest, plan_, buffers_); });
   std::vector<PoseCandidate> candidates = buffers_.candidates.to_host(context);
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), [](const PoseCandidate& c) { return c.valid == 0; }),
                    candidates.end());

@@ -8,7 +8,6 @@
 
 #include "foothold/base/array.h"
 #include "foothold/base/context.h"
-#include "foothold/relocalisation/settings.h"
 #include "pose/align.h"
 #include "pose/candidates.h"
 #include "pose/hypotheses.h"
@@ -16,12 +15,13 @@
 #include "pose/pose_query.h"
 #include "pose/rank.h"
 #include "pose/refine.h"
+#include "pose/search_plan.h"
 
 namespace foothold {
 
 /// What the stages of an estimate work on; each is described in its stage's header.
 struct PoseBuffers {
-  PoseBuffers(MemoryKind memory, const PoseEstimatorSettings& settings);
+  PoseBuffers(MemoryKind memory, const SearchPlan& plan);
 
   CorrespondencePool pool;
   Hypotheses hypotheses;
@@ -33,11 +33,11 @@ struct PoseBuffers {
 
 /// Estimates the camera of a frame from the modes its pixels reach. The stages follow one another in pose_estimator_kernels.h.
 ///
-/// Determinism: a function of the arguments and settings.seed, whatever the number of threads.
+/// Determinism: a function of the arguments and the plan's seed, whatever the number of threads.
 /// Cost: O(hypotheses x samples x modes); buffers are kept, so that a second call allocates nothing.
 class PoseEstimator {
  public:
-  PoseEstimator(const Context& context, const PoseEstimatorSettings& settings);
+  PoseEstimator(const Context& context, const SearchPlan& plan);
 
   /// Chooses the pixels and the remembered points that every estimate of this query uses, however the camera is rolled.
   void prepare(const Context& context, const PoseQuery& query);
@@ -59,7 +59,7 @@ class PoseEstimator {
  private:
   void make_room_for(const PoseQuery& query, const ForestView& forest);
 
-  PoseEstimatorSettings settings_;
+  SearchPlan plan_;
   PoseBuffers buffers_;
 };
 

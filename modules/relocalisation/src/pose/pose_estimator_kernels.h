@@ -27,36 +27,33 @@ namespace foothold {
 /// The bodies of PoseEstimator's methods.
 template <class Executor>
 struct PoseAlgorithms {
-  static void prepare(const Context& context, const PoseQuery& query, const PoseEstimatorSettings& settings, PoseBuffers& buffers);
+  static void prepare(const Context& context, const PoseQuery& query, const SearchPlan& plan, PoseBuffers& buffers);
   /// @param num_drawn  Output: the hypotheses that were drawn, among few.
-  static void screen(const Context& context, const PoseQuery& query, const ForestView& forest, const PoseEstimatorSettings& settings,
-                     PoseBuffers& buffers, std::uint32_t* num_drawn);
-  static void estimate(const Context& context, const PoseQuery& query, const ForestView& forest, const PoseEstimatorSettings& settings,
+  static void screen(const Context& context, const PoseQuery& query, const ForestView& forest, const SearchPlan& plan, PoseBuffers& buffers,
+                     std::uint32_t* num_drawn);
+  static void estimate(const Context& context, const PoseQuery& query, const ForestView& forest, const SearchPlan& plan,
                        PoseBuffers& buffers);
 
  private:
-  static void preempt(const Executor& executor, const PoseEstimatorSettings& settings, PoseBuffers& buffers);
+  static void preempt(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers);
 };
 
 template <class Executor>
-void PoseAlgorithms<Executor>::prepare(const Context& context, const PoseQuery& query, const PoseEstimatorSettings& settings,
-                                       PoseBuffers& buffers) {
+void PoseAlgorithms<Executor>::prepare(const Context& context, const PoseQuery& query, const SearchPlan& plan, PoseBuffers& buffers) {
   const Executor executor(context);
-  sample_pool(executor, query, settings.seed, buffers.pool);
-  draw_remembered_points(executor, query, settings.seed, buffers.ranking);
-  if (settings.alignment_iterations > 0) estimate_surfaces(executor, query, buffers.pool, buffers.alignment);
+  sample_pool(executor, query, plan.seed, buffers.pool);
+  draw_remembered_points(executor, query, plan.seed, buffers.ranking);
+  if (plan.confronts_scene) estimate_surfaces(executor, query, buffers.pool, buffers.alignment);
 }
 
 template <class Executor>
-void PoseAlgorithms<Executor>::screen(const Context& context, const PoseQuery& query, const ForestView& forest,
-                                      const PoseEstimatorSettings& settings, PoseBuffers& buffers, std::uint32_t* num_drawn) {
-  // (T) In seven rendered rooms rolled by 30 to 90 deg and RedKitchen's halves, leaving out rolls with which none can be drawn loses no
-  // answer; a quarter as many hypotheses lose 1 %.
-  constexpr int kPixels = 500;
-  constexpr int kHypotheses = 256;
-  PoseEstimatorSettings few = settings;
-  few.pool_size = kPixels < settings.pool_size ? kPixels : settings.pool_size;
-  few.num_hypotheses = kHypotheses < settings.num_hypotheses ? kHypotheses : settings.num_hypotheses;
+void PoseAlgorithms<Executor>::screen(const Context& context, const PoseQuery& query, const ForestView& forest, const SearchPlan& plan,
+                                      PoseBuffers& buffers, std::uint32_t* num_drawn) {
+  constexpr int kPixels = 500;      // (T) docs/results.md
+  constexpr int kHypotheses = 256;  // (T) docs/results.md
+  SearchPlan few = plan;
+  few.pool_size = std::min(kPixels, plan.pool_size);
+  few.num_hypotheses = std::min(kHypotheses, plan.num_hypotheses);
   const Executor executor(context);
   fill_pool<Executor>(context, query, forest, few.pool_size, buffers.pool);
   draw_hypotheses(executor, buffers.pool.view(few.pool_size), few, buffers.hypotheses);
@@ -64,67 +61,66 @@ void PoseAlgorithms<Executor>::screen(const Context& context, const PoseQuery& q
 }
 
 template <class Executor>
-void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery& query, const ForestView& forest,
-                                        const PoseEstimatorSettings& settings, PoseBuffers& buffers) {
+void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery& query, const ForestView& forest, const SearchPlan& plan,
+                                        PoseBuffers& buffers) {
   constexpr int kFinalRounds = 2;  // modes are assigned anew before each
   const Executor executor(context);
-  const CorrespondencePoolView pool = buffers.pool.view(settings.pool_size);
+  const CorrespondencePoolView pool = buffers.pool.view(plan.pool_size);
   Hypotheses& hypotheses = buffers.hypotheses;
   const std::size_t num_candidates = buffers.candidates.size();
   {
     const ScopedStage stage(context, "relocalise/correspondences");
-    fill_pool<Executor>(context, query, forest, settings.pool_size, buffers.pool);
+    fill_pool<Executor>(context, query, forest, plan.pool_size, buffers.pool);
   }
   {
     const ScopedStage stage(context, "relocalise/hypotheses");
-    draw_hypotheses(executor, pool, settings, hypotheses);
+    draw_hypotheses(executor, pool, plan, hypotheses);
   }
   {
     const ScopedStage stage(context, "relocalise/ransac");
-    preempt(executor, settings, buffers);
+    preempt(executor, plan, buffers);
   }
-  if (settings.ranking_points > 0) {
+  if (plan.confronts_scene) {
     const ScopedStage stage(context, "relocalise/rank");
-    rank(executor, query, settings, num_candidates, hypotheses, buffers.ranking);
+    rank(executor, query, num_candidates, hypotheses, buffers.ranking);
   }
   const ScopedStage stage(context, "relocalise/refine");
-  const Refinement final_refinement{settings.pool_size, settings.refinement_radius_m, settings.final_iterations};
+  const Refinement final_refinement{plan.pool_size, plan.final_iterations};
   for (int round = 0; round < kFinalRounds; ++round) refine(executor, pool, final_refinement, 1, hypotheses, buffers.assignments);
-  if (settings.alignment_iterations > 0) {
-    Aligner<Executor>(context, query, forest, settings).run(buffers.pool, buffers.ranking, hypotheses, buffers.alignment);
+  if (plan.confronts_scene) {
+    Aligner<Executor>(context, query, forest).run(buffers.pool, buffers.ranking, hypotheses, buffers.alignment);
+    judge(executor, query, 1, hypotheses, buffers.ranking);  // once more, where it is now
   }
-  if (settings.ranking_points > 0) judge(executor, query, settings, 1, hypotheses, buffers.ranking);  // once more, where it is now
   executor.for_each_team(num_groups<Executor>(num_candidates),
                          EvaluateCandidates<Executor>{pool, buffers.pool.sampled.data(), buffers.pool.sampled.size(), hypotheses.view(),
                                                       buffers.alignment.misfits.data(), buffers.ranking.evidence.data(), num_candidates,
-                                                      settings.energy_truncation, buffers.candidates.data()});
+                                                      plan.energy_truncation, buffers.candidates.data()});
 }
 
 /// Culls, then pre-emptive RANSAC. Those that lose keep their places behind those that win.
 template <class Executor>
-void PoseAlgorithms<Executor>::preempt(const Executor& executor, const PoseEstimatorSettings& settings, PoseBuffers& buffers) {
-  const CorrespondencePoolView pool = buffers.pool.view(settings.pool_size);
+void PoseAlgorithms<Executor>::preempt(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers) {
+  const CorrespondencePoolView pool = buffers.pool.view(plan.pool_size);
   Hypotheses& hypotheses = buffers.hypotheses;
   std::size_t num_active = hypotheses.poses.size();
   const auto score_and_sort = [&](const ScoredSamples& samples) {
-    score(executor, pool, samples, settings.energy_truncation, num_active, hypotheses);
+    score(executor, pool, samples, plan.energy_truncation, num_active, hypotheses);
     sort_by_energy(executor, num_active, hypotheses);
   };
   const auto keep = [&](int num_best) { num_active = std::min(num_active, static_cast<std::size_t>(num_best)); };
 
   // The cull, in one or two steps.
-  score_and_sort({0, settings.first_cull_samples, false});
-  if (settings.first_cull_samples < settings.cull_samples) {
-    keep(settings.first_cull_survivors);
-    score_and_sort({settings.first_cull_samples, settings.cull_samples, false});
+  score_and_sort({0, plan.first_cull_samples, false});
+  if (plan.first_cull_samples < kCullSamples) {
+    keep(kFirstCullSurvivors);
+    score_and_sort({plan.first_cull_samples, kCullSamples, false});
   }
-  keep(settings.cull_survivors);
+  keep(plan.cull_survivors);
 
   // The rounds: more samples, better poses, half as many.
-  for (int num_samples = settings.cull_samples; num_active > 1; num_active /= 2) {
-    num_samples += settings.round_samples;
-    refine(executor, pool, {std::min(num_samples, settings.pool_size), settings.refinement_radius_m, settings.refinement_iterations},
-           num_active, hypotheses, buffers.assignments);
+  for (int num_samples = kCullSamples; num_active > 1; num_active /= 2) {
+    num_samples += plan.round_samples;
+    refine(executor, pool, {std::min(num_samples, plan.pool_size), plan.round_iterations}, num_active, hypotheses, buffers.assignments);
     score_and_sort({0, num_samples, true});
   }
 }

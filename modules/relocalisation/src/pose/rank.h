@@ -9,6 +9,10 @@
 
 namespace foothold {
 
+/// Points that are drawn (T); candidates are ranked by the first kRankingPoints (T) of them.
+inline constexpr int kRememberedPoints = 8192;
+inline constexpr int kRankingPoints = 2048;
+
 /// A point drawn from all that the leaves remember.
 struct RememberedPoint {
   float point_scene[3];  ///< [m]

@@ -47,7 +47,6 @@ struct JudgeCandidates {
   Intrinsics intrinsics;  ///< of the averaged image
   const RememberedPoint* points;
   int num_points;
-  int max_colour_difference;
   HypothesesView hypotheses;
   SceneEvidence* evidence;  ///< per hypothesis
 
@@ -98,7 +97,7 @@ struct JudgeCandidates {
                                  static_cast<std::uint8_t>(centre.b())};
     counts[0] += 1.0F;
     counts[1] += in_front ? 1.0F : 0.0F;
-    counts[2] += !in_front && !behind && colour_difference(rgb, point.rgb) < max_colour_difference ? 1.0F : 0.0F;
+    counts[2] += !in_front && !behind && colour_difference(rgb, point.rgb) < kMaxColourDifference ? 1.0F : 0.0F;
   }
 };
 
@@ -125,20 +124,17 @@ void draw_remembered_points(const Executor& executor, const PoseQuery& query, st
   executor.for_each(ranking.points.size(), DrawRememberedPoint{query.reservoirs, derive_seed(seed, kStream), ranking.points.data()});
 }
 
-/// Confronts the hypotheses in the first slots with the points.
+/// Confronts the hypotheses in the first slots with the first kRankingPoints points.
 template <class Executor>
-void judge(const Executor& executor, const PoseQuery& query, const PoseEstimatorSettings& settings, std::size_t num_candidates,
-           Hypotheses& hypotheses, Ranking& ranking) {
+void judge(const Executor& executor, const PoseQuery& query, std::size_t num_candidates, Hypotheses& hypotheses, Ranking& ranking) {
   executor.for_each_team(num_candidates, JudgeCandidates<Executor>{query.image.view(), query.averaged_intrinsics(), ranking.points.data(),
-                                                                   settings.ranking_points, settings.max_colour_difference,
-                                                                   hypotheses.view(), ranking.evidence.data()});
+                                                                   kRankingPoints, hypotheses.view(), ranking.evidence.data()});
 }
 
 /// Orders the hypotheses in the first slots by what the points say about them.
 template <class Executor>
-void rank(const Executor& executor, const PoseQuery& query, const PoseEstimatorSettings& settings, std::size_t num_candidates,
-          Hypotheses& hypotheses, Ranking& ranking) {
-  judge(executor, query, settings, num_candidates, hypotheses, ranking);
+void rank(const Executor& executor, const PoseQuery& query, std::size_t num_candidates, Hypotheses& hypotheses, Ranking& ranking) {
+  judge(executor, query, num_candidates, hypotheses, ranking);
   executor.for_each(num_candidates, MakeEvidenceKey{ranking.evidence.data(), hypotheses.view()});
   executor.sort(Span<std::uint64_t>(hypotheses.order.data(), num_candidates), hypotheses.sort_buffer, 32, 64);
 }

@@ -10,6 +10,7 @@
 namespace foothold {
 
 inline constexpr std::uint16_t kNoMode = 0xffff;
+inline constexpr float kRefinementRadiusM = 0.2F;  ///< (R) distance to its mode beyond which a sample does not refine a pose
 
 /// Hypotheses are compared with modes in groups of an executor's vector width, which divides this.
 inline constexpr std::size_t kLargestGroup = 16;

@@ -235,7 +235,6 @@ struct RefineHypothesis {
 /// How far hypotheses are refined.
 struct Refinement {
   int num_samples;
-  float radius_m;  ///< distance to its mode beyond which a sample does not count
   int num_iterations;
 };
 
@@ -244,8 +243,8 @@ template <class Executor>
 void refine(const Executor& executor, const CorrespondencePoolView& pool, const Refinement& how, std::size_t num_active,
             Hypotheses& hypotheses, ModeAssignments& assignments) {
   const auto num_samples = static_cast<std::uint32_t>(how.num_samples);
-  executor.for_each_team(num_groups<Executor>(num_active),
-                         AssignModes<Executor>{pool, hypotheses.view(), num_active, num_samples, how.radius_m, assignments.nearest.data()});
+  executor.for_each_team(num_groups<Executor>(num_active), AssignModes<Executor>{pool, hypotheses.view(), num_active, num_samples,
+                                                                                 kRefinementRadiusM, assignments.nearest.data()});
   executor.for_each_team(num_active,
                          RefineHypothesis<Executor>{pool, hypotheses.view(), num_samples, assignments.nearest.data(), how.num_iterations});
 }

@@ -16,7 +16,7 @@ namespace foothold {
 struct ExplainedCandidate {
   SE3 world_from_camera;
   float confidence = 0.0F;
-  /// Truncated Mahalanobis distance per pixel; with pose.ranking_points = 0, candidates are ordered by it, but for the best,
+  /// Truncated Mahalanobis distance per pixel; with pose.as_published, candidates are ordered by it, but for the best,
   /// which was refined afterwards. Reference: [Cavallari2017] Eq. 4.
   float mean_energy = 0.0F;
   float inlier_fraction = 0.0F;  ///< pixels with a mode within 5 cm of where the pose puts them, among those with depth
