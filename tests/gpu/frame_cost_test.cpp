@@ -18,7 +18,7 @@ namespace {
 
 using test::EmulatedCuda;
 
-/// Launches of verbs with the default numbers of steps, rounds and trees: the table in docs/cuda.md.
+/// The most launches of verbs with the default numbers of steps, rounds and trees: the table in docs/cuda.md.
 constexpr int kLaunchesOfTraining = 25;
 constexpr int kLaunchesOfRelocalisation = 4;
 constexpr int kLaunchesOfScreening = 8;  // for each roll but the upright one
@@ -61,7 +61,7 @@ TEST_CASE(
   REQUIRE(device.counts().num_device_waits == 0);
   REQUIRE(device.counts().num_writes == 2);  // depth and colour
   INFO("training with an update: " << device.counts().num_launches << " launches");
-  REQUIRE(device.counts().num_launches == kLaunchesOfTraining);
+  REQUIRE(device.counts().num_launches <= kLaunchesOfTraining);
 
   device.reset_counts();
   relocalise(3);
@@ -73,7 +73,7 @@ TEST_CASE(
   REQUIRE(device.counts().num_reads == num_waits);
   REQUIRE(device.counts().num_device_waits == 0);
   INFO("relocalising: " << device.counts().num_launches << " launches");
-  REQUIRE(device.counts().num_launches == kLaunchesOfRelocalisation + num_screened * kLaunchesOfScreening + num_rolls * kLaunchesOfRoll);
+  REQUIRE(device.counts().num_launches <= kLaunchesOfRelocalisation + num_screened * kLaunchesOfScreening + num_rolls * kLaunchesOfRoll);
 }
 
 /// A pipeline for images of a quarter of a camera's size, with a map that the emulated device has the patience for.
@@ -112,7 +112,7 @@ TEST_CASE("frame cost: a fused frame allocates nothing and waits twice, for its 
   REQUIRE(device.counts().num_device_waits == 0);
   REQUIRE(device.counts().num_writes == 4);  // depth, colour, the guess, the pose to render from
   INFO("a fused frame: " << device.counts().num_launches << " launches");
-  REQUIRE(device.counts().num_launches == kLaunchesOfFusion);
+  REQUIRE(device.counts().num_launches <= kLaunchesOfFusion);
 }
 
 TEST_CASE("frame cost: a lost frame without depth waits once, to be told so, and asks nobody") {
@@ -159,7 +159,7 @@ TEST_CASE("frame cost: refining 16 candidates allocates nothing and waits twice,
   REQUIRE(device.counts().num_device_waits == 0);
   REQUIRE(device.counts().num_writes == 2);  // the candidates' poses, and the finalists'
   INFO("refining: " << device.counts().num_launches << " launches");
-  REQUIRE(device.counts().num_launches == kLaunchesOfRefinement);
+  REQUIRE(device.counts().num_launches <= kLaunchesOfRefinement);
 }
 
 }  // namespace

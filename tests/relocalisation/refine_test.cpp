@@ -96,45 +96,6 @@ struct Problem {
   std::vector<std::uint16_t> nearest;
 };
 
-TEST_CASE("solve_damped: solves what Eigen's LDLT solves") {
-  Random random = test::test_random();
-  for (int repeat = 0; repeat < 500; ++repeat) {
-    Matrix6d root;
-    for (int i = 0; i < 36; ++i) root(i / 6, i % 6) = random.uniform(-1.0F, 1.0F);
-    const Matrix6d h = root * root.transpose() * 100.0 + Matrix6d::Identity();
-    float sums[kNumRefinementSums] = {};
-    Matrix6d damped = Matrix6d::Zero();
-    Vector6d gradient;
-    const float lambda = repeat % 2 == 0 ? 0.0F : random.uniform(0.0F, 2.0F);
-    int next = 0;
-    for (int i = 0; i < 6; ++i) {
-      for (int j = i; j < 6; ++j) {
-        sums[next] = static_cast<float>(h(i, j));
-        damped(i, j) = damped(j, i) = static_cast<double>(sums[next++]) * (i == j ? 1.0 + static_cast<double>(lambda) : 1.0);
-      }
-      gradient[i] = static_cast<double>(sums[kNumHessian + i] = random.uniform(-10.0F, 10.0F));
-    }
-    float x[6];
-    REQUIRE(solve_damped(sums, lambda, x));
-    const Vector6d expected = damped.ldlt().solve(-gradient);
-    for (int i = 0; i < 6; ++i) REQUIRE(static_cast<double>(x[i]) == Approx(expected[i]).epsilon(1e-5).margin(1e-6));
-  }
-}
-
-TEST_CASE("solve_damped: refuses matrices that are not positive definite") {
-  float x[6];
-  const float zeros[kNumRefinementSums] = {};
-  REQUIRE_FALSE(solve_damped(zeros, 1e-3F, x));
-  float sums[kNumRefinementSums] = {};
-  const int diagonal[6] = {0, 6, 11, 15, 18, 20};
-  for (int i = 0; i < 6; ++i) sums[diagonal[i]] = 1.0F;
-  REQUIRE(solve_damped(sums, 0.0F, x));
-  sums[18] = -1.0F;
-  REQUIRE_FALSE(solve_damped(sums, 0.0F, x));
-  sums[18] = std::nanf("");
-  REQUIRE_FALSE(solve_damped(sums, 0.0F, x));
-}
-
 TEST_CASE("perturbed: turns about the camera's own position") {
   Random random = test::test_random();
   const SE3 pose = pose_of(random_twist(random, 1.0F, 2.0F));

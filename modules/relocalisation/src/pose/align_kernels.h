@@ -103,7 +103,7 @@ struct AlignWithPoints {
     if (team.lane() != 0) return;
     state->misfit = 1.0F - sums[kFit] / (sums[kNumWithSurface] > 0.0F ? sums[kNumWithSurface] : 1.0F);
     float twist[6];
-    if (sums[kNumSupported] >= kMinSupported && solve_damped(sums, kDamping, twist)) {
+    if (sums[kNumSupported] >= kMinSupported && solve_for_twist(sums, kDamping, twist)) {
       state->scene_from_camera = perturbed(pose, twist);
     } else {
       state->ended = 1;
@@ -111,7 +111,7 @@ struct AlignWithPoints {
   }
 
  private:
-  // Behind the Hessian and the gradient of solve_damped():
+  // Behind the Hessian and the gradient:
   static constexpr int kNumSupported = kNumHessian + 6;  ///< samples with remembered points around them
   static constexpr int kNumWithSurface = kNumSupported + 1;
   static constexpr int kFit = kNumSupported + 2;

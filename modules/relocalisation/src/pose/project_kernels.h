@@ -27,7 +27,7 @@ struct AlignByProjection {
     team.sum_all(sums);
     if (team.lane() != 0) return;
     float twist[6];
-    if (sums[kNumSupported] >= kMinSupported && solve_damped(sums, kDamping, twist)) state->scene_from_camera = perturbed(pose, twist);
+    if (sums[kNumSupported] >= kMinSupported && solve_for_twist(sums, kDamping, twist)) state->scene_from_camera = perturbed(pose, twist);
   }
 
  private:

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "foothold/base/normal_equations.h"
 #include "pose/refine.h"
 #include "pose/score_kernels.h"
 
@@ -56,38 +57,15 @@ struct AssignModes {
   }
 };
 
-/// Upper triangle of a 6x6 matrix, a gradient and a cost: what one pass over the samples adds up.
-inline constexpr int kNumHessian = 21;
+/// What one pass over the samples adds up: the normal equations and a cost.
 inline constexpr int kNumRefinementSums = kNumHessian + 6 + 1;
 
-/// Solves (H + lambda diag(H)) x = -g by Cholesky's decomposition. @return False if the matrix is not positive definite.
-FOOTHOLD_HD inline bool solve_damped(const float* sums, float lambda, float* x) {
-  double l[6][6];
-  int next = 0;
-  for (int i = 0; i < 6; ++i) {
-    for (int j = i; j < 6; ++j) l[j][i] = static_cast<double>(sums[next++]);
-    l[i][i] *= 1.0 + static_cast<double>(lambda);
-  }
-  for (int i = 0; i < 6; ++i) {
-    for (int k = 0; k < i; ++k) l[i][i] -= l[i][k] * l[i][k];
-    if (!(l[i][i] > 1e-9)) return false;
-    l[i][i] = std::sqrt(l[i][i]);
-    for (int j = i + 1; j < 6; ++j) {
-      for (int k = 0; k < i; ++k) l[j][i] -= l[j][k] * l[i][k];
-      l[j][i] /= l[i][i];
-    }
-  }
-  double y[6];
-  for (int i = 0; i < 6; ++i) {
-    y[i] = -static_cast<double>(sums[kNumHessian + i]);
-    for (int k = 0; k < i; ++k) y[i] -= l[i][k] * y[k];
-    y[i] /= l[i][i];
-  }
-  for (int i = 5; i >= 0; --i) {
-    for (int k = i + 1; k < 6; ++k) y[i] -= l[k][i] * y[k];
-    y[i] /= l[i][i];
-    x[i] = static_cast<float>(y[i]);
-  }
+/// Solves damped normal equations for a twist. @return False if their matrix is not positive definite.
+FOOTHOLD_HD inline bool solve_for_twist(const float* sums, float damping, float* twist) {
+  constexpr double kSmallestPivot = 1e-9;
+  double x[6];
+  if (!solve_damped(sums, static_cast<double>(damping), kSmallestPivot, 6, x)) return false;
+  for (int k = 0; k < 6; ++k) twist[k] = static_cast<float>(x[k]);
   return true;
 }
 
@@ -128,7 +106,7 @@ struct RefineHypothesis {
         lambda *= 100.0F;
       }
       float twist[6];
-      if (!solve_damped(best_sums, lambda, twist)) break;
+      if (!solve_for_twist(best_sums, lambda, twist)) break;
       trial = perturbed(best, twist);
     }
     team.sync();
