@@ -17,9 +17,9 @@ struct NamedRoom {
   const char* name;
   Room (*make)();
 };
-constexpr NamedRoom kRooms[] = {
-    {"office", make_office},     {"stairs", make_stairs},       {"kitchen", make_kitchen}, {"textureless", make_textureless},
-    {"workshop", make_workshop}, {"bookshelf", make_bookshelf}, {"lounge", make_lounge}};
+constexpr NamedRoom kRooms[] = {{"office", make_office},           {"stairs", make_stairs},     {"kitchen", make_kitchen},
+                                {"textureless", make_textureless}, {"workshop", make_workshop}, {"bookshelf", make_bookshelf},
+                                {"lounge", make_lounge},           {"corridor", make_corridor}};
 
 constexpr char kTrainingPrefix[] = "training-";
 

@@ -24,6 +24,8 @@ Room make_workshop();
 Room make_bookshelf();
 /// Sofas, plants and posters.
 Room make_lounge();
+/// Equal doors along both sides, equal lamps, and little that tells one from the next.
+Room make_corridor();
 /// The K-th room to train on: everything about it is drawn from K.
 Room make_training_room(std::uint64_t k);
 

@@ -56,8 +56,8 @@ class SyntheticSequence final : public Sequence {
   SyntheticSequence(const SyntheticSequenceSettings& settings, const Context& context)
       : settings_(settings),
         context_(rendering_context(context)),
-        room_(make_room(settings.room)),
-        trajectory_(room_, trajectory_kind(settings.trajectory), settings.seed),
+        trajectory_(make_room(settings.room), trajectory_kind(settings.trajectory), settings.seed),
+        room_(changed_room(make_room(settings.room), settings)),
         intrinsics_(intrinsics_for(settings.width, settings.height)) {}
 
   std::string name() const override { return synthetic_spec(settings_); }
@@ -69,20 +69,22 @@ class SyntheticSequence final : public Sequence {
     frame.index = index;
     frame.timestamp_s = static_cast<double>(index) / kFramesPerSecond;
     frame.calibration = {intrinsics_, intrinsics_, SE3{}};
-    const SE3 world_from_camera = trajectory_.world_from_camera(frame.timestamp_s) * rolled(settings_.roll_deg);
+    const SE3 on_path = trajectory_.world_from_camera(frame.timestamp_s);
+    const SE3 world_from_camera = (settings_.mirrored ? mirrored_pose(on_path) : on_path) * rolled(settings_.roll_deg);
     frame.world_from_camera = world_from_camera;
     RenderedView view = render(context_, room_, intrinsics_, world_from_camera, settings_.width, settings_.height);
     if (settings_.noise > 0) view = measure(sensor_model(settings_.noise), room_, std::move(view), settings_.seed, index);
     frame.depth = std::move(view.depth);
     frame.colour = std::move(view.colour);
+    apply_effects(settings_, settings_.seed, frame);
     return frame;
   }
 
  private:
   SyntheticSequenceSettings settings_;
   Context context_;
-  Room room_;
   Trajectory trajectory_;
+  Room room_;
   Intrinsics intrinsics_;
 };
 

@@ -10,12 +10,13 @@
 #include "foothold/api/frame_source.h"
 #include "foothold/base/context.h"
 #include "foothold/base/settings.h"
-#include "foothold/synthetic/room.h"
+#include "foothold/synthetic/room_changes.h"
+#include "foothold/synthetic/view_effects.h"
 
 namespace foothold {
 
-/// Which room, seen how.
-struct SyntheticSequenceSettings {
+/// Which room, changed how, seen how. Changes and effects leave the camera's path as it is, but for mirroring.
+struct SyntheticSequenceSettings : RoomChanges, ViewEffects {
   /// One of synthetic_room_names(), or "training-K" for K = 0, 1, 2, ...
   std::string room = "office";
   /// "train" or "test": two paths through the same room.
@@ -42,6 +43,8 @@ struct SyntheticSequenceSettings {
     v(&SyntheticSequenceSettings::noise, "noise", "0 exact, 1 as a Kinect sees it, 2 a bad day of it.", Range{0, 2});
     v(&SyntheticSequenceSettings::seed, "seed", "Varies noise and tremor, not the room.", Range{0, 18446744073709551615.0});
     v(&SyntheticSequenceSettings::roll_deg, "roll_deg", "Turns the camera about its optical axis [deg].", Range{-180, 180});
+    RoomChanges::fields(v);
+    ViewEffects::fields(v);
   }
 
   /// @throws InvalidSettings naming the field, its value and what is allowed.
