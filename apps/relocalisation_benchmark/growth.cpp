@@ -119,6 +119,19 @@ std::string growth_table(const std::vector<GrowthCurve>& curves, const std::stri
                       rows);
 }
 
+std::string belief_table(const std::vector<GrowthCurve>& curves, const std::string& amount_name) {
+  std::vector<std::vector<std::string>> rows;
+  for (const GrowthCurve& curve : curves) {
+    for (const GrowthPoint& point : curve.points) {
+      const BeliefCounts& beliefs = point.beliefs;
+      rows.push_back({curve.method, std::to_string(point.amount)});
+      for (const int count : {beliefs.num_right, beliefs.num_unsure, beliefs.num_wrong_here, beliefs.num_wrong_place})
+        rows.back().push_back(std::to_string(count));
+    }
+  }
+  return format_table({"method", amount_name, "right, believed", "unsure", "wrong, believed, right place", "wrong place, believed"}, rows);
+}
+
 Json growth_json(const std::vector<GrowthCurve>& curves, const std::string& amount_key) {
   Json json = Json::object();
   for (const GrowthCurve& curve : curves) {

@@ -46,6 +46,8 @@ struct GrowthCurve {
 
 /// A Markdown table for people, a row per method and amount.
 std::string growth_table(const std::vector<GrowthCurve>& curves, const std::string& amount_name);
+/// How the tests ended, likewise.
+std::string belief_table(const std::vector<GrowthCurve>& curves, const std::string& amount_name);
 /// An object per method, each with `points`.
 Json growth_json(const std::vector<GrowthCurve>& curves, const std::string& amount_key);
 /// A line per method and amount.

@@ -7,6 +7,7 @@
 #include "commands.h"
 #include "foothold/base/error.h"
 #include "foothold/evaluation/train_test.h"
+#include "foothold/synthetic/synthetic_sequence.h"
 #include "growth.h"
 #include "outputs.h"
 #include "places.h"
@@ -24,6 +25,8 @@ struct ScaleOptions {
   std::string size = "320x240";
   RoomViews views;
   int first_room = kFirstRoom;
+  std::string identical;  ///< the room that all places are; empty for rooms of their own
+  double differing = 0.1;
   int num_tested = 4;
   float spacing_m = 9.0F;
 };
@@ -33,6 +36,16 @@ void parse_size(const std::string& text, RoomViews& views) {
   char rest = 0;
   if (std::sscanf(text.c_str(), "%dx%d%c", &views.width, &views.height, &rest) != 2)
     throw InvalidSettings("--size: got '" + text + "', expected WIDTHxHEIGHT, such as 320x240");
+}
+
+/// The i-th room. Those that are identical but for some furniture have a third of it moved, a third gone, and a third new.
+std::string room_spec(const ScaleOptions& options, int i) {
+  if (options.identical.empty()) return "synthetic:training-" + std::to_string(options.first_room + i);
+  SyntheticSequenceSettings settings;
+  settings.room = options.identical;
+  settings.moved = settings.removed = settings.added = static_cast<float>(options.differing / 3.0);
+  settings.change_seed = static_cast<std::uint64_t>(i);
+  return synthetic_spec(settings);
 }
 
 /// The scenes to learn, one after another: the user's recordings, or as many rooms as the largest amount asks for.
@@ -47,8 +60,10 @@ std::vector<Scene> scenes_to_learn(ScaleOptions options) {
   }
   parse_size(options.size, options.views);
   std::vector<Scene> scenes;
-  for (int i = 0; i < most; ++i)
-    scenes.push_back(room_scene("synthetic:training-" + std::to_string(options.first_room + i), options.views));
+  for (int i = 0; i < most; ++i) {
+    scenes.push_back(room_scene(room_spec(options, i), options.views));
+    if (!options.identical.empty()) scenes.back().name += "-" + std::to_string(i);
+  }
   return scenes;
 }
 
@@ -119,7 +134,12 @@ std::vector<std::pair<std::string, std::string>> describe(const ScaleOptions& op
   described.emplace_back("spacing_m", csv_number(static_cast<double>(options.spacing_m)));
   described.emplace_back("tested_places", std::to_string(options.num_tested));
   if (!options.scenes.scenes.empty()) return described;
-  described.emplace_back("first_room", std::to_string(options.first_room));
+  if (options.identical.empty()) {
+    described.emplace_back("first_room", std::to_string(options.first_room));
+  } else {
+    described.emplace_back("identical", options.identical);
+    described.emplace_back("differing", csv_number(options.differing));
+  }
   described.emplace_back("frames", std::to_string(options.views.num_training));
   described.emplace_back("test_frames", std::to_string(options.views.num_tests));
   described.emplace_back("room_stride", std::to_string(options.views.stride));
@@ -140,8 +160,9 @@ int run_scale(ScaleOptions options) {
   } catch (const Interrupted&) {
     return apps::kInterrupted;
   }
-  std::printf("Places %g m apart in one world, the first %d of them tested\n\n%s", static_cast<double>(options.spacing_m),
-              std::min(options.num_tested, static_cast<int>(places.size())), growth_table(curves, "places").c_str());
+  std::printf("Places %g m apart in one world, the first %d of them tested\n\n%s\n%s", static_cast<double>(options.spacing_m),
+              std::min(options.num_tested, static_cast<int>(places.size())), growth_table(curves, "places").c_str(),
+              belief_table(curves, "places").c_str());
   Json json = document_head("scale", describe(options));
   json["places"] = places_json(places);
   json["methods"] = growth_json(curves, "places");
@@ -160,6 +181,11 @@ void add_room_options(CLI::App& command, ScaleOptions& options) {
       ->capture_default_str();
   command.add_option("--first-room", options.first_room, "Rooms are synthetic:training-K from this K on")
       ->check(CLI::Range(0, 1000000))
+      ->capture_default_str();
+  command.add_option("--identical", options.identical, "Make all places this room, such as office, differing in some furniture")
+      ->type_name("ROOM");
+  command.add_option("--differing", options.differing, "Share of the furniture in which identical rooms differ")
+      ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command.add_option("--frames", options.views.num_training, "Frames to learn in each room")
       ->check(CLI::Range(1, 100000))

@@ -61,6 +61,12 @@ class ScaleTest(PlacesTest):
         self.check_refused("scale", *SCENES, "--rooms", "3", says=["--rooms", "3", "2"])
         self.check_refused("scale", "--method", "none", says=["none", "forest"])
 
+    def test_identical_rooms_differ_in_furniture_alone(self):
+        results = self.run_json(*ROOMS, "--rooms", 2, "--identical", "office", "--differing", 0.3)
+        self.assertEqual([p["name"] for p in results["places"]], ["office-0", "office-1"])
+        self.assertEqual((results["settings"]["identical"], results["settings"]["differing"]), ("office", 0.3))
+        self.check_refused(*ROOMS, "--identical", "castle", says=["castle", "office"])
+
     def test_every_place_is_also_learnt_alone(self):
         method = self.run_json(*ROOMS, "--rooms", "2", "--plot", "plot.png")["methods"]["forest"]
         self.assertEqual((method["alone"]["num_trained"], method["alone"]["num_tested"]), (12, 6))
