@@ -1,7 +1,7 @@
 # What can be chosen, and what this machine offers. AUTO builds a part where its packages are present; ON insists; OFF leaves it out.
 
 set(FOOTHOLD_CUDA AUTO CACHE STRING "CUDA device: AUTO, ON or OFF")
-set(FOOTHOLD_IO AUTO CACHE STRING "Module io and the apps (OpenCV, nlohmann-json, CLI11, spdlog): AUTO, ON or OFF")
+set(FOOTHOLD_IO AUTO CACHE STRING "Module io and the apps (OpenCV, nlohmann-json, CLI11): AUTO, ON or OFF")
 set(FOOTHOLD_OPENNI AUTO CACHE STRING "Module openni (OpenNI2): AUTO, ON or OFF")
 set(FOOTHOLD_CUDA_ARCHITECTURES 90 CACHE STRING "CUDA architectures; releases name 75 to 120")
 set(FOOTHOLD_CPU x86-64-v3 CACHE STRING "Instruction set of host code as -march understands it; 'native' for this machine, empty for the compiler's default")
@@ -77,8 +77,7 @@ if(NOT FOOTHOLD_IO STREQUAL "OFF")
   find_package(OpenCV QUIET COMPONENTS core imgproc imgcodecs highgui ml)
   find_package(nlohmann_json QUIET)
   find_package(CLI11 QUIET)
-  find_package(spdlog QUIET)
-  foreach(package OpenCV nlohmann_json CLI11 spdlog)
+  foreach(package OpenCV nlohmann_json CLI11)
     if(NOT ${package}_FOUND)
       string(APPEND missing " ${package}")
     endif()

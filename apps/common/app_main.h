@@ -3,12 +3,11 @@
 /// What the main() of every app does: parse arguments, run, turn exceptions into messages and exit codes, heed Ctrl-C.
 #pragma once
 
-#include <CLI/App.hpp>
-#include <CLI/Config.hpp>
-#include <CLI/Formatter.hpp>
 #include <functional>
 #include <string>
 
+#include "common/command_line.h"
+#include "common/log.h"
 #include "foothold/base/context.h"
 
 namespace foothold::apps {
@@ -25,13 +24,10 @@ enum ExitCode : int {
 ///
 /// Wrong arguments and exceptions derived from foothold::Error are reported on stderr and give kUserError; any other exception gives kBug.
 /// From then on Ctrl-C, the end of the terminal and SIGTERM make interrupted() true; a second one of a kind kills the process.
-int run_app(CLI::App& app, int argc, char** argv, const std::function<int()>& body);
+int run_app(CommandLine& app, int argc, char** argv, const std::function<int()>& body);
 
 /// True once the user has pressed Ctrl-C, or the system wants the process to end. Long loops ask it, tidy up and return kInterrupted.
 bool interrupted();
-
-/// Prints the library's messages on stderr, for ContextOptions::log.
-LogSink log_to_stderr();
 
 /// Where to compute, as every app's options say it.
 struct DeviceOptions {
@@ -40,7 +36,7 @@ struct DeviceOptions {
 };
 
 /// Adds --device cpu|cuda and --threads N. The options must live as long as the app.
-void add_device_options(CLI::App& app, DeviceOptions& options);
+void add_device_options(CommandLine& app, DeviceOptions& options);
 
 /// The context that the options ask for, logging to stderr. @throws InvalidSettings, DeviceError
 Context make_context(const DeviceOptions& options, Trace* trace = nullptr);

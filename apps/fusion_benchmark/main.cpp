@@ -3,9 +3,9 @@
 /// fusion_benchmark: how well, how fast and in how much memory the tracker follows a recording, without any relocaliser.
 #include <algorithm>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "common/app_main.h"
+#include "common/json.h"
 #include "common/override_settings.h"
 #include "common/progress_bar.h"
 #include "foothold/base/error.h"
@@ -65,8 +65,8 @@ void print(const std::string& sequence, const FusionRun& run, const Accuracy& ac
   std::printf("  map %.0f MB, process at most %.0f MB\n", run.map_mb, run.peak_mb);
 }
 
-nlohmann::json to_json(const std::string& sequence, const FusionRun& run, const Accuracy& accuracy) {
-  nlohmann::json json = {
+Json to_json(const std::string& sequence, const FusionRun& run, const Accuracy& accuracy) {
+  Json json = {
       {"sequence", sequence},
       {"frames",
        {{"all", run.num_frames}, {"good", run.num_good}, {"poor", run.num_poor}, {"lost", run.num_lost}, {"fused", run.num_fused}}},
@@ -90,7 +90,7 @@ void print_ceiling(const char* name, const Ceiling& ceiling, int num_frames) {
               percent * ceiling.num_accepted);
 }
 
-nlohmann::json ceiling_json(const Ceiling& ceiling) {
+Json ceiling_json(const Ceiling& ceiling) {
   return {{"within_5cm_5deg", ceiling.num_within_5},
           {"within_10cm_10deg", ceiling.num_within_10},
           {"accepted", ceiling.num_accepted},
@@ -102,7 +102,7 @@ int run_ceilings(const Options& options, const FusionSettings& settings) {
   const Context context = make_context(options.device);
   if (context.memory() != MemoryKind::kHost) throw InvalidSettings("--device: got cuda, expected cpu with --map");
   const std::shared_ptr<Sequence> map = open_sequence(options.map, context);
-  nlohmann::json json = nlohmann::json::array();
+  Json json = Json::array();
   for (const std::string& spec : options.sequences) {
     const std::shared_ptr<Sequence> tested = open_sequence(spec, context);
     CeilingRun result;
@@ -123,7 +123,7 @@ int run_ceilings(const Options& options, const FusionSettings& settings) {
                     {"aligned", ceiling_json(result.aligned)},
                     {"refined", ceiling_json(result.refined)}});
   }
-  if (!options.json_file.empty()) write_file_atomically(options.json_file, json.dump(1) + "\n");
+  if (!options.json_file.empty()) write_file_atomically(options.json_file, json.dump() + "\n");
   return kSuccess;
 }
 
@@ -133,7 +133,7 @@ int run(const Options& options) {
   if (!options.trajectory_file.empty() && options.sequences.size() != 1) {
     throw InvalidSettings("--trajectory: got " + std::to_string(options.sequences.size()) + " sequences, expected one");
   }
-  nlohmann::json json = nlohmann::json::array();
+  Json json = Json::array();
   for (const std::string& spec : options.sequences) {
     Trace trace;
     const Context context = make_context(options.device, &trace);
@@ -152,7 +152,7 @@ int run(const Options& options) {
     json.push_back(to_json(spec, result, accuracy));
     if (!options.trajectory_file.empty()) write_trajectory(options.trajectory_file, result.trajectory);
   }
-  if (!options.json_file.empty()) write_file_atomically(options.json_file, json.dump(1) + "\n");
+  if (!options.json_file.empty()) write_file_atomically(options.json_file, json.dump() + "\n");
   return kSuccess;
 }
 
@@ -162,21 +162,21 @@ int run(const Options& options) {
 int main(int argc, char** argv) {
   using namespace foothold;
   using namespace foothold::apps;
-  CLI::App app("Follows recordings with the tracker alone, from the first true pose, and reports accuracy, time and memory.",
-               "fusion_benchmark");
+  CommandLine app("Follows recordings with the tracker alone, from the first true pose, and reports accuracy, time and memory.",
+                  "fusion_benchmark");
   Options options;
   app.add_option("--sequence", options.sequences, "A folder or synthetic:ROOM?setting=value&..., with @A:B for a part; repeatable")
-      ->required()
-      ->take_all();
+      .required()
+      .repeatable();
   app.add_option("--map", options.map,
                  "Instead of tracking, fuse this recording with its true poses, and align the frames of each --sequence from theirs: the "
                  "ceiling of relocalisation with refinement");
-  app.add_option("--stride", options.stride, "Use every Nth frame")->check(CLI::Range(1, 1000000))->capture_default_str();
-  app.add_option("--settings", options.settings_file, "JSON file of settings")->type_name("FILE");
-  app.add_option("--set", options.assignments, "One setting as setting=value, such as icp.finest_level=1; repeatable")->take_all();
-  app.add_option("--json", options.json_file, "Write the results to FILE")->type_name("FILE");
+  app.add_option("--stride", options.stride, "Use every Nth frame").range(1, 1000000).show_default();
+  app.add_option("--settings", options.settings_file, "JSON file of settings").type_name("FILE");
+  app.add_option("--set", options.assignments, "One setting as setting=value, such as icp.finest_level=1; repeatable").repeatable();
+  app.add_option("--json", options.json_file, "Write the results to FILE").type_name("FILE");
   app.add_option("--trajectory", options.trajectory_file, "Write the trajectory to FILE, in the format of the TUM benchmark")
-      ->type_name("FILE");
+      .type_name("FILE");
   add_device_options(app, options.device);
   return run_app(app, argc, argv, [&] { return run(options); });
 }

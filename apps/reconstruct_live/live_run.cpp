@@ -2,8 +2,6 @@
 // Copyright (c) 2026 The Foothold authors
 #include "live_run.h"
 
-#include <spdlog/spdlog.h>
-
 #include <array>
 #include <cstdio>
 #include <ctime>
@@ -60,7 +58,7 @@ int LiveRun::run() {
     is_bug = dynamic_cast<const Error*>(&error) == nullptr;
     ended_by_ = "error";
     errors_.emplace_back(error.what());
-    spdlog::error("{}", error.what());
+    apps::log_error(error.what());
   }
   save_all();
   if (is_bug) return apps::kBug;
@@ -164,7 +162,7 @@ void LiveRun::obey(int key) {
       scene_path_.empty() ? say("no scene to go on with: save one with S first, or start with --load-scene") : load_scene(scene_path_);
     }
   } catch (const FileError& error) {  // a full disk, say, is no reason to end
-    spdlog::error("{}", error.what());
+    apps::log_error(error.what());
     notice_ = error.what();
   }
 }
@@ -207,7 +205,7 @@ void LiveRun::save_mesh(const std::string& path) {
 
 void LiveRun::say(const std::string& notice) {
   notice_ = notice;
-  spdlog::info("{}", notice);
+  apps::log_info(notice);
 }
 
 std::string LiveRun::counters() const {
@@ -249,21 +247,21 @@ void LiveRun::attempt(const std::string& path, Save&& save) {
     saved_.push_back(path);
   } catch (const std::exception& error) {
     errors_.emplace_back(error.what());
-    spdlog::error("{}", error.what());
+    apps::log_error(error.what());
   }
 }
 
 void LiveRun::save_reconstruction() {
   const bool is_empty = session_->pipeline().volume().num_blocks() == 0;
   if (is_empty && !(options_.save_scene.empty() && options_.save_mesh.empty())) {
-    spdlog::warn("nothing was reconstructed: no scene and no surface are saved");
+    apps::log_warning("nothing was reconstructed: no scene and no surface are saved");
   }
   if (!is_empty) {
     attempt(options_.save_scene, [&] { save_scene(options_.save_scene); });
     attempt(options_.save_mesh, [&] { save_mesh(options_.save_mesh); });
   }
   if (log_.trajectory().empty()) {
-    if (!options_.save_trajectory.empty()) spdlog::warn("no frame of this scene has a pose: no trajectory is saved");
+    if (!options_.save_trajectory.empty()) apps::log_warning("no frame of this scene has a pose: no trajectory is saved");
     return;
   }
   attempt(options_.save_trajectory, [&] { write_trajectory(options_.save_trajectory, log_.trajectory()); });

@@ -29,7 +29,8 @@ int run(const LiveOptions& options) {
 }  // namespace foothold::live
 
 int main(int argc, char** argv) {
-  CLI::App app("Reconstructs what a depth camera sees, live, and finds the camera again when it is lost.", "reconstruct_live");
+  foothold::apps::CommandLine app("Reconstructs what a depth camera sees, live, and finds the camera again when it is lost.",
+                                  "reconstruct_live");
   foothold::live::LiveOptions options;
   foothold::live::add_live_options(app, options);
   return foothold::apps::run_app(app, argc, argv, [&] { return foothold::live::run(options); });

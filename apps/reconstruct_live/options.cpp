@@ -43,43 +43,37 @@ void LiveSettings::validate() const {
   SessionSettings::validate();
 }
 
-void add_live_options(CLI::App& app, LiveOptions& options) {
+void add_live_options(apps::CommandLine& app, LiveOptions& options) {
   app.add_flag("--list-devices", options.list_devices, "List the cameras and their modes, and end");
   app.add_option("--camera", options.camera, "The camera: an index or a URI of --list-devices, or an .oni file; otherwise the first");
-  app.add_option("--mode", options.mode, "Size and rate of depth and colour, as WIDTHxHEIGHT@FPS")->capture_default_str();
+  app.add_option("--mode", options.mode, "Size and rate of depth and colour, as WIDTHxHEIGHT@FPS").show_default();
   app.add_option("--calibration", options.calibration_folder,
                  "Folder with camera-intrinsics.txt and the like (docs/sequences.md); otherwise the camera's own field of view")
-      ->type_name("DIR");
-  app.add_option("--forest", options.forest, "A forest file; otherwise the one that comes with Foothold")->type_name("FILE");
-  app.add_option("--settings", options.settings_file, "JSON file of settings: {\"camera\": {\"lock_exposure\": true}}")->type_name("FILE");
+      .type_name("DIR");
+  app.add_option("--forest", options.forest, "A forest file; otherwise the one that comes with Foothold").type_name("FILE");
+  app.add_option("--settings", options.settings_file, "JSON file of settings: {\"camera\": {\"lock_exposure\": true}}").type_name("FILE");
   app.add_option("--set", options.settings,
                  "One setting as path=value, such as camera.lock_exposure=true or fusion.volume.voxel_size_m=0.02; repeatable")
-      ->take_all();
+      .repeatable();
   apps::add_device_options(app, options.device);
 
-  app.add_option("--load-scene", options.load_scene, "Go on with a saved scene: the camera is looked for in it")->type_name("FILE");
-  app.add_option("--save-scene", options.save_scene, "Save the scene at the end: map, relocaliser and settings")->type_name("FILE");
-  app.add_option("--save-mesh", options.save_mesh, "Save the surface at the end, as PLY")->type_name("FILE");
+  app.add_option("--load-scene", options.load_scene, "Go on with a saved scene: the camera is looked for in it").type_name("FILE");
+  app.add_option("--save-scene", options.save_scene, "Save the scene at the end: map, relocaliser and settings").type_name("FILE");
+  app.add_option("--save-mesh", options.save_mesh, "Save the surface at the end, as PLY").type_name("FILE");
   app.add_option("--save-trajectory", options.save_trajectory, "Save the camera's poses at the end, in the format of TUM")
-      ->type_name("FILE");
-  app.add_option("--json", options.json, "Save a summary of the run at the end")->type_name("FILE");
+      .type_name("FILE");
+  app.add_option("--json", options.json, "Save a summary of the run at the end").type_name("FILE");
 
   app.add_option("--record", options.record_folder,
                  "Record the frames that are reconstructed, in the layout of 7-Scenes: replay_sequence then gives the same trajectory")
-      ->type_name("DIR");
+      .type_name("DIR");
   app.add_flag("--record-only", options.record_only, "With --record: record every frame of the camera, and reconstruct nothing");
   app.add_flag("--headless", options.headless, "Open no window");
-  app.add_option("--view-dir", options.view_folder, "Write the view as PNG files into this folder")->type_name("DIR");
-  app.add_option("--view-every", options.view_every, "Write the view after every so many frames")
-      ->check(CLI::Range(1, 1000000))
-      ->capture_default_str();
-  app.add_option("--frames", options.num_frames, "Stop after this many frames; 0 for no limit")
-      ->check(CLI::Range(0, 100000000))
-      ->capture_default_str();
-  app.add_option("--duration", options.duration_s, "Stop after this many seconds; 0 for no limit")
-      ->check(CLI::Range(0.0, 1e9))
-      ->capture_default_str();
-  app.add_option("--press", options.keys, "Press a key of the window before a frame, as KEY@FRAME, such as l@100; repeatable")->take_all();
+  app.add_option("--view-dir", options.view_folder, "Write the view as PNG files into this folder").type_name("DIR");
+  app.add_option("--view-every", options.view_every, "Write the view after every so many frames").range(1, 1000000).show_default();
+  app.add_option("--frames", options.num_frames, "Stop after this many frames; 0 for no limit").range(0, 100000000).show_default();
+  app.add_option("--duration", options.duration_s, "Stop after this many seconds; 0 for no limit").range(0.0, 1e9).show_default();
+  app.add_option("--press", options.keys, "Press a key of the window before a frame, as KEY@FRAME, such as l@100; repeatable").repeatable();
 }
 
 LiveSettings live_settings(const LiveOptions& options) {

@@ -62,7 +62,7 @@ struct LiveOptions {
   std::string json;
 };
 
-void add_live_options(CLI::App& app, LiveOptions& options);
+void add_live_options(apps::CommandLine& app, LiveOptions& options);
 
 /// The settings: --mode and --camera, then the settings file, then --set. @throws InvalidSettings, FileError
 LiveSettings live_settings(const LiveOptions& options);

@@ -2,14 +2,14 @@
 // Copyright (c) 2026 The Foothold authors
 #include "run_log.h"
 
-#include <nlohmann/json.hpp>
+#include "common/json.h"
 
 #include "foothold/base/trace.h"
 
 namespace foothold::live {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using apps::Json;
 
 constexpr int kFormatVersion = 1;
 
@@ -82,7 +82,7 @@ std::string RunLog::to_json(const Surroundings& surroundings) const {
   json["loaded_scene"] = surroundings.loaded_scene.empty() ? Json(nullptr) : Json(surroundings.loaded_scene);
   json["saved"] = surroundings.saved;
   json["errors"] = surroundings.errors;
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+  return json.dump() + "\n";
 }
 
 }  // namespace foothold::live

@@ -113,17 +113,17 @@ int run_adapt(const AdaptOptions& options) {
 
 }  // namespace
 
-Command add_adapt_command(CLI::App& app) {
+Command add_adapt_command(apps::CommandLine& app) {
   const auto options = std::make_shared<AdaptOptions>();
-  CLI::App* command = app.add_subcommand("adapt", "Adapt forests to scenes they were not trained on: the paper's Tables 1 and 2");
-  add_scene_options(*command, options->scenes);
+  apps::CommandLine command = app.add_subcommand("adapt", "Adapt forests to scenes they were not trained on: the paper's Tables 1 and 2");
+  add_scene_options(command, options->scenes);
   command
-      ->add_option("--forest", options->forests,
-                   "A forest of the table's rows as [NAME=]FILE, where FILE may be 'default', or 'random' for one made from the settings "
-                   "random_forest.*; repeatable")
-      ->take_all()
-      ->capture_default_str();
-  add_experiment_options(*command, options->scenes.common);
+      .add_option("--forest", options->forests,
+                  "A forest of the table's rows as [NAME=]FILE, where FILE may be 'default', or 'random' for one made from the settings "
+                  "random_forest.*; repeatable")
+      .repeatable()
+      .show_default();
+  add_experiment_options(command, options->scenes.common);
   return {command, [options] { return run_adapt(*options); }};
 }
 

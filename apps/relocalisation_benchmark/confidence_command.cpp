@@ -32,7 +32,7 @@ Scene with_foreign_views(const std::vector<Scene>& scenes, std::size_t index) {
 }
 
 Json point_json(const AcceptancePoint& point) {
-  return {{"threshold", number(point.threshold)},
+  return {{"threshold", point.threshold},
           {"num_accepted", point.num_accepted},
           {"false_accepts", point.num_false_accepts},
           {"recall", point.recall},
@@ -57,7 +57,7 @@ Json calibration_json(const std::vector<CalibrationBin>& bins) {
                     {"high", bin.high},
                     {"num_answers", bin.num_answers},
                     {"num_right", bin.num_right},
-                    {"mean_confidence", number(bin.mean_confidence)},
+                    {"mean_confidence", bin.mean_confidence},
                     {"right_95", interval_json(bin.right_95)}});
   }
   return json;
@@ -69,9 +69,9 @@ Json method_json(const MethodConfidence& method) {
           {"num_findable", report.num_findable},
           {"num_answered", report.num_answers},
           {"acceptance_threshold", method.acceptance_threshold},
-          {"roc_area", number(report.roc_area)},
-          {"calibration_error", number(report.calibration_error)},
-          {"brier_score", number(report.brier_score)},
+          {"roc_area", report.roc_area},
+          {"calibration_error", report.calibration_error},
+          {"brier_score", report.brier_score},
           {"at_threshold", point_json(report.at_threshold)},
           {"without_false_accepts", point_json(report.without_false)},
           {"curve", curve_json(report.curve)},
@@ -139,15 +139,15 @@ int run_confidence(const SceneOptions& options) {
 
 }  // namespace
 
-Command add_confidence_command(CLI::App& app) {
+Command add_confidence_command(apps::CommandLine& app) {
   const auto options = std::make_shared<SceneOptions>();
   options->common.methods = {"forest", "ferns"};
-  CLI::App* command = app.add_subcommand(
+  apps::CommandLine command = app.add_subcommand(
       "confidence",
       "False accepts against recall, and whether confidences come true; with several scenes, each is also asked about the next");
-  add_scene_options(*command, *options);
-  add_forest_option(*command, options->common);
-  add_experiment_options(*command, options->common);
+  add_scene_options(command, *options);
+  add_forest_option(command, options->common);
+  add_experiment_options(command, options->common);
   return {command, [options] { return run_confidence(*options); }};
 }
 

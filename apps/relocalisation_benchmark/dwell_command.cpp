@@ -115,23 +115,23 @@ int run_dwell(const DwellOptions& options) {
 
 }  // namespace
 
-Command add_dwell_command(CLI::App& app) {
+Command add_dwell_command(apps::CommandLine& app) {
   const auto options = std::make_shared<DwellOptions>();
-  CLI::App* command =
+  apps::CommandLine command =
       app.add_subcommand("dwell", "What standing still costs: a few frames learnt over and over, then another part of the scene");
-  command->add_option("--sequence", options->sequence, "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:NAME?key=value")->required();
-  command->add_option("--standing", options->amounts, "How many frames to stand still, one run for each number")
-      ->delimiter(',')
-      ->check(CLI::Range(0, 10000000))
-      ->capture_default_str();
-  command->add_option("--stay", options->stay, "Frames that are played to and fro while standing, each time with fresh noise")
-      ->type_name("A:B")
-      ->capture_default_str();
-  command->add_option("--learn", options->learn, "Frames that are learnt afterwards")->type_name("A:B")->capture_default_str();
-  command->add_option("--test", options->test, "Frames that are tested then")->type_name("A:B")->capture_default_str();
-  add_forest_option(*command, options->common);
-  add_experiment_options(*command, options->common);
-  add_plot_option(*command, options->common, "Draw recall, time and memory against the frames of standing to FILE.png");
+  command.add_option("--sequence", options->sequence, "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:NAME?key=value").required();
+  command.add_option("--standing", options->amounts, "How many frames to stand still, one run for each number")
+      .comma_separated()
+      .range(0, 10000000)
+      .show_default();
+  command.add_option("--stay", options->stay, "Frames that are played to and fro while standing, each time with fresh noise")
+      .type_name("A:B")
+      .show_default();
+  command.add_option("--learn", options->learn, "Frames that are learnt afterwards").type_name("A:B").show_default();
+  command.add_option("--test", options->test, "Frames that are tested then").type_name("A:B").show_default();
+  add_forest_option(command, options->common);
+  add_experiment_options(command, options->common);
+  add_plot_option(command, options->common, "Draw recall, time and memory against the frames of standing to FILE.png");
   return {command, [options] { return run_dwell(*options); }};
 }
 

@@ -22,6 +22,7 @@ namespace {
 constexpr double kDegPerRad = 57.29577951308232;
 /// Failures nearer than this in one recording show the same.
 constexpr std::int64_t kLeastFramesApart = 15;
+const std::vector<std::string> kTableHead = {"sequence", "frame", "cm", "deg", "confidence", "first right of the candidates"};
 
 struct FailuresOptions {
   SceneOptions scene;
@@ -85,7 +86,7 @@ std::vector<Failure> choose_failures(std::vector<Failure> failures, std::size_t 
 
 Json candidate_json(const FailureCase& failure, const ExplainedCandidate& candidate) {
   const PoseError error = failure.error_of(candidate);
-  return {{"mean_energy", number(static_cast<double>(candidate.mean_energy))},
+  return {{"mean_energy", static_cast<double>(candidate.mean_energy)},
           {"inlier_fraction", candidate.inlier_fraction},
           {"confidence", candidate.confidence},
           {"translation_error_m", error.translation_m},
@@ -99,8 +100,14 @@ struct Examination {
   ForestRelocaliser& relocaliser;
 };
 
-/// Draws one failure. @return Its JSON object.
-Json examine(const Examination& with, const std::string& sequence, const RgbdFrame& frame, std::size_t number) {
+/// What was found out about one failure.
+struct Examined {
+  std::vector<std::string> table_row;
+  Json json;
+};
+
+/// Looks into one failure and draws it.
+Examined examine(const Examination& with, const std::string& sequence, const RgbdFrame& frame, std::size_t number) {
   FailureCase failure{sequence, frame, with.relocaliser.explain(frame.view())};
   const std::vector<ExplainedCandidate>& candidates = failure.explanation.candidates;
   Json json = {{"sequence", sequence}, {"frame", frame.index}};
@@ -110,24 +117,23 @@ Json examine(const Examination& with, const std::string& sequence, const RgbdFra
   json["first_right_candidate"] = found == candidates.end() ? Json(nullptr) : Json(1 + (found - candidates.begin()));
   json["candidates"] = Json::array();
   for (const ExplainedCandidate& candidate : candidates) json["candidates"].push_back(candidate_json(failure, candidate));
-  if (with.options.pictures.empty()) return json;
-  const std::string prefix = with.options.pictures + "." + std::to_string(number);
-  write_png(prefix + ".candidates.png", draw_candidates(failure, with.model));
-  write_png(prefix + ".modes.png", draw_modes(failure, with.model));
-  json["candidates_picture"] = std::filesystem::path(prefix + ".candidates.png").filename().string();
-  json["modes_picture"] = std::filesystem::path(prefix + ".modes.png").filename().string();
-  return json;
-}
-
-std::string failures_table(const Json& cases) {
-  std::vector<std::vector<std::string>> rows;
-  for (const Json& entry : cases) {
-    rows.push_back({entry["sequence"].get<std::string>(), std::to_string(entry["frame"].get<std::int64_t>()),
-                    format_number(100.0 * entry["translation_error_m"].get<double>(), 1),
-                    format_number(entry["rotation_error_deg"].get<double>(), 1), format_number(entry["confidence"].get<double>(), 3),
-                    entry["first_right_candidate"].is_null() ? "none" : std::to_string(entry["first_right_candidate"].get<int>())});
+  const PoseError error = failure.error_of(candidates.front());
+  Examined examined;
+  examined.table_row = {sequence,
+                        std::to_string(frame.index),
+                        format_number(100.0 * error.translation_m, 1),
+                        format_number(kDegPerRad * error.rotation_rad, 1),
+                        format_number(static_cast<double>(candidates.front().confidence), 3),
+                        found == candidates.end() ? "none" : std::to_string(1 + (found - candidates.begin()))};
+  if (!with.options.pictures.empty()) {
+    const std::string prefix = with.options.pictures + "." + std::to_string(number);
+    write_png(prefix + ".candidates.png", draw_candidates(failure, with.model));
+    write_png(prefix + ".modes.png", draw_modes(failure, with.model));
+    json["candidates_picture"] = std::filesystem::path(prefix + ".candidates.png").filename().string();
+    json["modes_picture"] = std::filesystem::path(prefix + ".modes.png").filename().string();
   }
-  return format_table({"sequence", "frame", "cm", "deg", "confidence", "first right of the candidates"}, rows);
+  examined.json = std::move(json);
+  return examined;
 }
 
 int run_failures(const FailuresOptions& options) {
@@ -145,6 +151,7 @@ int run_failures(const FailuresOptions& options) {
   ForestRelocaliser relocaliser(context, *inputs.forest, method.name == "paper" ? inputs.settings.paper : inputs.settings.forest);
   std::vector<Failure> failures;
   Json cases = Json::array();
+  std::vector<std::vector<std::string>> table_rows;
   int num_tested = 0;
   int num_lost = 0;
   try {
@@ -165,15 +172,17 @@ int run_failures(const FailuresOptions& options) {
     if (!chosen.empty()) {
       for_each_frame(scene.tests, "drawing", [&](std::size_t input, const RgbdFrame& frame) {
         const auto is_it = [&](const Failure& failure) { return failure.input_index == input && failure.frame_index == frame.index; };
-        if (std::any_of(chosen.begin(), chosen.end(), is_it))
-          cases.push_back(examine({options, model, relocaliser}, scene.tests[input].name, frame, cases.size() + 1));
+        if (std::none_of(chosen.begin(), chosen.end(), is_it)) return;
+        Examined examined = examine({options, model, relocaliser}, scene.tests[input].name, frame, table_rows.size() + 1);
+        table_rows.push_back(std::move(examined.table_row));
+        cases.push_back(std::move(examined.json));
       });
     }
   } catch (const Interrupted&) {
     return apps::kInterrupted;
   }
   std::printf("%zu of %d frames of %s were answered wrongly, %d not at all\n\n%s", failures.size(), num_tested, scene.name.c_str(),
-              num_lost, cases.empty() ? "" : failures_table(cases).c_str());
+              num_lost, table_rows.empty() ? "" : format_table(kTableHead, table_rows).c_str());
   Json json = document_head("failures", describe_scene_options(options.scene));
   json["scenes"] = scenes_json({scene});
   json["num_tested"] = num_tested;
@@ -192,21 +201,17 @@ int run_failures(const FailuresOptions& options) {
 
 }  // namespace
 
-Command add_failures_command(CLI::App& app) {
+Command add_failures_command(apps::CommandLine& app) {
   const auto options = std::make_shared<FailuresOptions>();
-  CLI::App* command =
+  apps::CommandLine command =
       app.add_subcommand("failures", "Draw the hypotheses and leaves behind wrong answers: the paper's supplementary material");
-  add_scene_options(*command, options->scene);
-  command->add_option("--count", options->count, "Failures to look into, the most confident ones first")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command->add_option("--pictures", options->pictures, "Draw each failure to PREFIX.N.candidates.png and PREFIX.N.modes.png")
-      ->type_name("PREFIX");
-  command->add_option("--voxel-size", options->voxel_size_m, "Voxels of the map that is drawn [m]")
-      ->check(CLI::Range(0.005, 0.1))
-      ->capture_default_str();
-  add_forest_option(*command, options->scene.common);
-  add_experiment_options(*command, options->scene.common);
+  add_scene_options(command, options->scene);
+  command.add_option("--count", options->count, "Failures to look into, the most confident ones first").range(1, 1000).show_default();
+  command.add_option("--pictures", options->pictures, "Draw each failure to PREFIX.N.candidates.png and PREFIX.N.modes.png")
+      .type_name("PREFIX");
+  command.add_option("--voxel-size", options->voxel_size_m, "Voxels of the map that is drawn [m]").range(0.005, 0.1).show_default();
+  add_forest_option(command, options->scene.common);
+  add_experiment_options(command, options->scene.common);
   return {command, [options] { return run_failures(*options); }};
 }
 

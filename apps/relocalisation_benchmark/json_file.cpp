@@ -11,7 +11,7 @@ Json method_json(const MethodResult& method) {
   Json json = accuracy_json(method.report);
   json.update(timing_json(method));
   if (!method.novelty.empty()) json["novelty"] = novelty_json(method.novelty);
-  json["settings"] = nested(method.settings);
+  json["settings"] = Json::nested(method.settings);
   return json;
 }
 
@@ -23,7 +23,7 @@ std::string json_document(const BenchmarkResult& result) {
   if (!result.training.empty()) json["training"] = result.training;
   json["methods"] = Json::object();
   for (const MethodResult& method : result.methods) json["methods"][method.name] = method_json(method);
-  return json.dump(2) + "\n";
+  return json.dump() + "\n";
 }
 
 }  // namespace foothold::benchmark

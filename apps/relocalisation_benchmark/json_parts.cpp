@@ -12,12 +12,6 @@ namespace {
 /// Raised when a key changes its meaning or goes away; new keys do not raise it.
 constexpr int kFormatVersion = 1;
 
-/// A setting's text as the value it stands for.
-Json typed(const std::string& text) {
-  const Json value = Json::parse(text, nullptr, false);
-  return value.is_number() || value.is_boolean() ? value : Json(text);
-}
-
 /// The processor's name as Linux tells it; empty elsewhere.
 std::string processor_name() {
   std::ifstream info("/proc/cpuinfo");
@@ -54,24 +48,12 @@ Json confidence_json(const MethodReport& report) {
           {"accepted_recall", report.accepted_recall},
           {"false_accepts", report.num_false_accepts},
           {"false_confidence_rate", report.false_confidence_rate},
-          {"roc_area", number(report.confidence_roc_area)}};
+          {"roc_area", report.confidence_roc_area}};
 }
 
 }  // namespace
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
-Json nested(const std::vector<std::pair<std::string, std::string>>& settings) {
-  Json result = Json::object();
-  for (const auto& [path, value] : settings) {
-    std::string pointer = "/" + path;
-    for (char& c : pointer) c = c == '.' ? '/' : c;
-    result[Json::json_pointer(pointer)] = typed(value);
-  }
-  return result;
-}
-
-Json spread_json(const Spread& spread) { return {{"median", number(spread.median)}, {"p95", number(spread.p95)}}; }
+Json spread_json(const Spread& spread) { return {{"median", spread.median}, {"p95", spread.p95}}; }
 
 Json interval_json(const Interval& interval) { return Json::array({interval.low, interval.high}); }
 
@@ -82,7 +64,7 @@ Json novelty_json(const std::vector<NoveltyBin>& bins) {
     result.push_back({{"bin", bin.key()},
                       {"num_frames", bin.num_frames},
                       {"num_found", bin.num_found},
-                      {"recall", number(fraction)},
+                      {"recall", fraction},
                       {"recall_95", interval_json(bin.recall_95)}});
   }
   return result;
@@ -93,7 +75,7 @@ Json document_head(const std::string& protocol, const std::vector<std::pair<std:
   json["format"] = "foothold-benchmark";
   json["format_version"] = kFormatVersion;
   json["protocol"] = protocol;
-  json["settings"] = nested(options);
+  json["settings"] = Json::nested(options);
   json["machine"] = {{"processor", processor_name()}, {"num_threads", std::thread::hardware_concurrency()}};
   return json;
 }
@@ -107,8 +89,8 @@ Json accuracy_json(const MethodReport& report) {
   json["recall_5cm_5deg_95"] = interval_json(report.recall_95);
   json["first_success_frame"] = report.first_success_frame.has_value() ? Json(*report.first_success_frame) : Json(nullptr);
   json["recall_per_100_frames"] = windows_json(report);
-  json["median_translation_error_m"] = number(report.median_translation_m);
-  json["median_rotation_error_deg"] = number(report.median_rotation_deg);
+  json["median_translation_error_m"] = report.median_translation_m;
+  json["median_rotation_error_deg"] = report.median_rotation_deg;
   json["confidence"] = confidence_json(report);
   json["state_mb"] = report.state_mb;
   return json;

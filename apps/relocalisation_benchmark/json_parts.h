@@ -3,25 +3,20 @@
 /// What the JSON documents of all commands share; docs/benchmark-json.md describes them.
 #pragma once
 
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "common/json.h"
 #include "result.h"
 
 namespace foothold::benchmark {
 
-using Json = nlohmann::ordered_json;
+using apps::Json;
 
-/// JSON knows no NaN: what could not be measured is null.
-Json number(double value);
 Json interval_json(const Interval& interval);
 Json spread_json(const Spread& spread);
 Json novelty_json(const std::vector<NoveltyBin>& bins);
-
-/// Nests {"pose.pool_size", "4000"} as {"pose": {"pool_size": 4000}}.
-Json nested(const std::vector<std::pair<std::string, std::string>>& settings);
 
 /// Format, version, protocol, settings and machine: the beginning of every document.
 Json document_head(const std::string& protocol, const std::vector<std::pair<std::string, std::string>>& options);

@@ -48,16 +48,11 @@ bool any(const KidnapRecord&) { return true; }
 
 Json totals_json(const Totals& totals) {
   const KidnapSummary& s = totals.summary;
-  return {{"num_kidnaps", s.num_kidnaps},
-          {"num_recovered", s.num_recovered},
-          {"num_seen_before", totals.num_seen},
-          {"num_seen_before_recovered", totals.num_seen_recovered},
-          {"num_right_at_end", s.num_right_at_end},
-          {"num_false_resumes", s.num_kidnaps_with_wrong_believed},
-          {"num_wrong_fusions", s.num_wrong_fused},
-          {"median_frames_to_recovery", number(s.median_frames)},
-          {"p95_frames_to_recovery", number(s.p95_frames)},
-          {"timing", {{"median_ms_to_recovery", number(s.median_ms)}}}};
+  return {{"num_kidnaps", s.num_kidnaps},           {"num_recovered", s.num_recovered},
+          {"num_seen_before", totals.num_seen},     {"num_seen_before_recovered", totals.num_seen_recovered},
+          {"num_right_at_end", s.num_right_at_end}, {"num_false_resumes", s.num_kidnaps_with_wrong_believed},
+          {"num_wrong_fusions", s.num_wrong_fused}, {"median_frames_to_recovery", s.median_frames},
+          {"p95_frames_to_recovery", s.p95_frames}, {"timing", {{"median_ms_to_recovery", s.median_ms}}}};
 }
 
 Json kidnap_json(const KidnapRecord& record) {
@@ -165,25 +160,23 @@ int run_kidnap(const KidnapCommandOptions& options) {
 
 }  // namespace
 
-Command add_kidnap_command(CLI::App& app) {
+Command add_kidnap_command(apps::CommandLine& app) {
   const auto options = std::make_shared<KidnapCommandOptions>();
   options->common.methods = {"forest", "ferns"};
   options->kidnaps.num_removed = 10;
   options->kidnaps.num_teleports = 10;
-  CLI::App* command =
+  apps::CommandLine command =
       app.add_subcommand("kidnap", "The closed loop: the camera is suddenly elsewhere, and tracker, relocaliser and map find it again");
   command
-      ->add_option("--sequence", options->sequence,
-                   "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:NAME?key=value; @A:B at the end selects frames")
-      ->required();
-  command->add_option("--removed", options->kidnaps.num_removed, "Kidnaps over a stretch of frames that is left out")
-      ->capture_default_str();
-  command->add_option("--removed-length", options->kidnaps.removed_length, "Frames of each such stretch")->capture_default_str();
-  command->add_option("--teleports", options->kidnaps.num_teleports, "Kidnaps back to an earlier part of the recording")
-      ->capture_default_str();
-  command->add_option("--judged", options->kidnaps.num_judged, "Frames within which the camera must be found")->capture_default_str();
-  add_forest_option(*command, options->common);
-  add_experiment_options(*command, options->common);
+      .add_option("--sequence", options->sequence,
+                  "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:NAME?key=value; @A:B at the end selects frames")
+      .required();
+  command.add_option("--removed", options->kidnaps.num_removed, "Kidnaps over a stretch of frames that is left out").show_default();
+  command.add_option("--removed-length", options->kidnaps.removed_length, "Frames of each such stretch").show_default();
+  command.add_option("--teleports", options->kidnaps.num_teleports, "Kidnaps back to an earlier part of the recording").show_default();
+  command.add_option("--judged", options->kidnaps.num_judged, "Frames within which the camera must be found").show_default();
+  add_forest_option(command, options->common);
+  add_experiment_options(command, options->common);
   return {command, [options] { return run_kidnap(*options); }};
 }
 

@@ -38,15 +38,16 @@ int run_loss(const LossOptions& options) {
 
 }  // namespace
 
-Command add_loss_command(CLI::App& app) {
+Command add_loss_command(apps::CommandLine& app) {
   const auto options = std::make_shared<LossOptions>();
-  CLI::App* command = app.add_subcommand("loss", "Relocalise every frame with what was learnt before it, then learn it with its true pose");
-  command->add_option("--sequence", options->sequence, "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:NAME?key=value")->required();
-  command->add_option("--frames", options->frames, "Use only frames A:B, the last one excluded")->type_name("A:B");
-  command->add_option("--gap", options->gap, "Test frame i + N (of those used) with what was learnt up to frame i - 1")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  add_common_options(*command, options->common);
+  apps::CommandLine command =
+      app.add_subcommand("loss", "Relocalise every frame with what was learnt before it, then learn it with its true pose");
+  command.add_option("--sequence", options->sequence, "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:NAME?key=value").required();
+  command.add_option("--frames", options->frames, "Use only frames A:B, the last one excluded").type_name("A:B");
+  command.add_option("--gap", options->gap, "Test frame i + N (of those used) with what was learnt up to frame i - 1")
+      .range(0, 1000000)
+      .show_default();
+  add_common_options(command, options->common);
   return {command, [options] { return run_loss(*options); }};
 }
 

@@ -6,8 +6,8 @@
 
 int main(int argc, char** argv) {
   namespace benchmark = foothold::benchmark;
-  CLI::App app("Measures how well, how fast and in how much memory a lost camera is found.", "relocalisation_benchmark");
-  app.require_subcommand(1);
+  foothold::apps::CommandLine app("Measures how well, how fast and in how much memory a lost camera is found.", "relocalisation_benchmark");
+  app.require_subcommands(1, 1);
   const benchmark::Command commands[] = {benchmark::add_loss_command(app),     benchmark::add_split_command(app),
                                          benchmark::add_adapt_command(app),    benchmark::add_novel_command(app),
                                          benchmark::add_time_command(app),     benchmark::add_confidence_command(app),
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
                                          benchmark::add_scale_command(app),    benchmark::add_dwell_command(app)};
   return foothold::apps::run_app(app, argc, argv, [&] {
     for (const benchmark::Command& command : commands) {
-      if (command.app->parsed()) return command.run();
+      if (command.line.parsed()) return command.run();
     }
     return static_cast<int>(foothold::apps::kUserError);  // unreachable: a subcommand is required
   });

@@ -38,7 +38,7 @@ Json area_ratios_json(const std::vector<NoveltyCurve>& curves) {
   for (const NoveltyCurve& numerator : curves) {
     for (const NoveltyCurve& denominator : curves) {
       if (&numerator == &denominator) continue;
-      json[numerator.method + " / " + denominator.method] = number(numerator.area / denominator.area);
+      json[numerator.method + " / " + denominator.method] = numerator.area / denominator.area;
     }
   }
   return json;
@@ -85,8 +85,7 @@ int run_novel(const SceneOptions& options) {
   Json json = document_head("novel", describe_scene_options(options));
   json["scenes"] = scenes_json(scenes);
   json["methods"] = Json::object();
-  for (const NoveltyCurve& curve : curves)
-    json["methods"][curve.method] = {{"novelty", novelty_json(curve.bins)}, {"area", number(curve.area)}};
+  for (const NoveltyCurve& curve : curves) json["methods"][curve.method] = {{"novelty", novelty_json(curve.bins)}, {"area", curve.area}};
   json["area_ratios"] = area_ratios_json(curves);
   json["runs"] = runs_json(runs);
   std::printf("%s", write_documents(options.common, json, runs_csv(runs, scenes)).c_str());
@@ -95,13 +94,14 @@ int run_novel(const SceneOptions& options) {
 
 }  // namespace
 
-Command add_novel_command(CLI::App& app) {
+Command add_novel_command(apps::CommandLine& app) {
   const auto options = std::make_shared<SceneOptions>();
   options->common.methods = {"forest", "ferns"};
-  CLI::App* command = app.add_subcommand("novel", "Recall against the distance to the nearest learnt view: the paper's section 4.3");
-  add_scene_options(*command, *options);
-  add_forest_option(*command, options->common);
-  add_experiment_options(*command, options->common);
+  apps::CommandLine command =
+      app.add_subcommand("novel", "Recall against the distance to the nearest learnt view: the paper's section 4.3");
+  add_scene_options(command, *options);
+  add_forest_option(command, options->common);
+  add_experiment_options(command, options->common);
   return {command, [options] { return run_novel(*options); }};
 }
 

@@ -28,40 +28,40 @@ Forest make_forest(const std::string& choice, const BenchmarkSettings& settings)
 
 }  // namespace
 
-void add_forest_option(CLI::App& command, CommonOptions& options) {
+void add_forest_option(apps::CommandLine& command, CommonOptions& options) {
   command.add_option("--forest", options.forest, "A forest file, 'default', or 'random' for one made from the settings random_forest.*")
-      ->capture_default_str();
+      .show_default();
 }
 
-void add_experiment_options(CLI::App& command, CommonOptions& options) {
-  command.add_option("--method", options.methods, method_help())->delimiter(',')->capture_default_str();
-  command.add_option("--preset", options.preset, "Settings that method forest starts from: tuned or paper")->capture_default_str();
+void add_experiment_options(apps::CommandLine& command, CommonOptions& options) {
+  command.add_option("--method", options.methods, method_help()).comma_separated().show_default();
+  command.add_option("--preset", options.preset, "Settings that method forest starts from: tuned or paper").show_default();
   command.add_option("--settings", options.settings_file,
                      "JSON file of settings, a section per method: {\"forest\": {\"pose\": {\"num_hypotheses\": 512}}}");
   command.add_option("--set", options.settings, "One setting as path=value, such as forest.pose.num_hypotheses=512; repeatable")
-      ->take_all();
-  command.add_option("--stride", options.stride, "Use every Nth frame")->check(CLI::Range(1, 1000000))->capture_default_str();
-  command.add_option("--seed", options.seed, "Seed of every random choice")->capture_default_str();
+      .repeatable();
+  command.add_option("--stride", options.stride, "Use every Nth frame").range(1, 1000000).show_default();
+  command.add_option("--seed", options.seed, "Seed of every random choice").show_default();
   apps::add_device_options(command, options.device);
   command.add_flag(
       "--exclusive-timing", options.exclusive_timing,
       "Decode frames between the timed calls, not beside them in a thread: slower, but what is timed has the machine to itself");
-  command.add_option("--json", options.json_file, "Write the results to FILE (docs/benchmark-json.md)")->type_name("FILE");
-  command.add_option("--csv", options.csv_file, "Write a line per tested frame to FILE")->type_name("FILE");
+  command.add_option("--json", options.json_file, "Write the results to FILE (docs/benchmark-json.md)").type_name("FILE");
+  command.add_option("--csv", options.csv_file, "Write a line per tested frame to FILE").type_name("FILE");
 }
 
-void add_plot_option(CLI::App& command, CommonOptions& options, const std::string& help) {
-  command.add_option("--plot", options.plot_file, help)->type_name("FILE");
+void add_plot_option(apps::CommandLine& command, CommonOptions& options, const std::string& help) {
+  command.add_option("--plot", options.plot_file, help).type_name("FILE");
 }
 
-void add_common_options(CLI::App& command, CommonOptions& options) {
+void add_common_options(apps::CommandLine& command, CommonOptions& options) {
   add_forest_option(command, options);
   add_experiment_options(command, options);
   add_plot_option(command, options, "Draw recall over time and the trajectory to FILE.png");
   command
       .add_option("--estimates", options.estimates_file,
                   "Write the estimated poses to FILE; with several methods, to FILE.METHOD.EXTENSION")
-      ->type_name("FILE");
+      .type_name("FILE");
 }
 
 MethodInputs method_inputs(const CommonOptions& options, const std::vector<Method>& methods) {

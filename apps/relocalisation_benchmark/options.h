@@ -33,13 +33,13 @@ struct CommonOptions {
 };
 
 /// All of them, for commands that run one protocol on one recording.
-void add_common_options(CLI::App& command, CommonOptions& options);
+void add_common_options(apps::CommandLine& command, CommonOptions& options);
 /// Those that experiments on several scenes take too: all but --forest, --plot and --estimates.
-void add_experiment_options(CLI::App& command, CommonOptions& options);
+void add_experiment_options(apps::CommandLine& command, CommonOptions& options);
 /// --plot, with what it draws.
-void add_plot_option(CLI::App& command, CommonOptions& options, const std::string& help);
+void add_plot_option(apps::CommandLine& command, CommonOptions& options, const std::string& help);
 /// --forest for experiments with one forest.
-void add_forest_option(CLI::App& command, CommonOptions& options);
+void add_forest_option(apps::CommandLine& command, CommonOptions& options);
 
 /// What the methods are made from: settings from the preset, the seed, the settings file and --set, in this order, and the forest if one of
 /// the methods needs it. @throws InvalidSettings, FileError

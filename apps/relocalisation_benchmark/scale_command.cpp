@@ -122,7 +122,7 @@ Json places_json(const std::vector<Place>& places) {
   Json json = Json::array();
   for (const Place& place : places) {
     json.push_back({{"name", place.name},
-                    {"origin_m", {place.origin_world.x(), place.origin_world.y(), place.origin_world.z()}},
+                    {"origin_m", Json::array({place.origin_world.x(), place.origin_world.y(), place.origin_world.z()})},
                     {"num_training", place.training.size()},
                     {"num_tests", place.tests.size()}});
   }
@@ -174,48 +174,39 @@ int run_scale(ScaleOptions options) {
   return apps::kSuccess;
 }
 
-void add_room_options(CLI::App& command, ScaleOptions& options) {
+void add_room_options(apps::CommandLine& command, ScaleOptions& options) {
   command.add_option("--rooms", options.amounts, "How many places to learn, one run for each number")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command.add_option("--first-room", options.first_room, "Rooms are synthetic:training-K from this K on")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
+      .comma_separated()
+      .range(1, 100000)
+      .show_default();
+  command.add_option("--first-room", options.first_room, "Rooms are synthetic:training-K from this K on").range(0, 1000000).show_default();
   command.add_option("--identical", options.identical, "Make all places this room, such as office, differing in some furniture")
-      ->type_name("ROOM");
+      .type_name("ROOM");
   command.add_option("--differing", options.differing, "Share of the furniture in which identical rooms differ")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  command.add_option("--frames", options.views.num_training, "Frames to learn in each room")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+      .range(0.0, 1.0)
+      .show_default();
+  command.add_option("--frames", options.views.num_training, "Frames to learn in each room").range(1, 100000).show_default();
   command.add_option("--test-frames", options.views.num_tests, "Frames to test in each tested room, on another path")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+      .range(1, 100000)
+      .show_default();
   command.add_option("--room-stride", options.views.stride, "Learn every Nth frame of a room's path at 30 frames a second")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
-  command.add_option("--size", options.size, "Size of the rooms' images")->type_name("WIDTHxHEIGHT")->capture_default_str();
+      .range(1, 1000)
+      .show_default();
+  command.add_option("--size", options.size, "Size of the rooms' images").type_name("WIDTHxHEIGHT").show_default();
 }
 
 }  // namespace
 
-Command add_scale_command(CLI::App& app) {
+Command add_scale_command(apps::CommandLine& app) {
   const auto options = std::make_shared<ScaleOptions>();
-  CLI::App* command = app.add_subcommand("scale", "Recall, time and memory against the number of places learnt in one world");
-  add_scene_options(*command, options->scenes);
-  command->get_option("--scene")->required(false);
-  add_room_options(*command, *options);
-  command->add_option("--tested", options->num_tested, "How many places to test, the first ones")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--spacing", options->spacing_m, "Distance between neighbouring places [m]")
-      ->check(CLI::Range(0.0, 10000.0))
-      ->capture_default_str();
-  add_forest_option(*command, options->scenes.common);
-  add_experiment_options(*command, options->scenes.common);
-  add_plot_option(*command, options->scenes.common, "Draw recall, time and memory against the number of places to FILE.png");
+  apps::CommandLine command = app.add_subcommand("scale", "Recall, time and memory against the number of places learnt in one world");
+  add_scene_options(command, options->scenes, false);
+  add_room_options(command, *options);
+  command.add_option("--tested", options->num_tested, "How many places to test, the first ones").range(1, 100000).show_default();
+  command.add_option("--spacing", options->spacing_m, "Distance between neighbouring places [m]").range(0.0, 10000.0).show_default();
+  add_forest_option(command, options->scenes.common);
+  add_experiment_options(command, options->scenes.common);
+  add_plot_option(command, options->scenes.common, "Draw recall, time and memory against the number of places to FILE.png");
   return {command, [options] { return run_scale(*options); }};
 }
 

@@ -112,7 +112,7 @@ std::string adaptation_table(const std::vector<SceneRun>& runs, const std::vecto
 std::string write_documents(const CommonOptions& options, const Json& json, const std::string& csv) {
   std::string told;
   if (!options.json_file.empty()) {
-    write_file_atomically(options.json_file, json.dump(2) + "\n");
+    write_file_atomically(options.json_file, json.dump() + "\n");
     told += "\nresults: " + options.json_file;
   }
   if (!options.csv_file.empty()) {

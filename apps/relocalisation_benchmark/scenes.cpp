@@ -109,19 +109,19 @@ Scene open_scene(const CommonOptions& options, const std::string& text) {
 
 }  // namespace
 
-void add_scene_options(CLI::App& command, SceneOptions& options) {
+void add_scene_options(apps::CommandLine& command, SceneOptions& options, bool scene_required) {
   options.num_settling_updates = kDefaultSettlingUpdates;
   command
       .add_option(
           "--scene", options.scenes,
           "What to learn and what to test: [NAME=]FOLDER of a 7-Scenes scene, with its official split; [NAME=]synthetic:ROOM, with the "
           "room's two trajectories; or [NAME=]TRAINING,TEST,..., recordings in one world of which the first is learnt. Repeatable")
-      ->required()
-      ->take_all();
+      .required(scene_required)
+      .repeatable();
   command
       .add_option("--settle", options.num_settling_updates, "Calls of update() between training and test, as a live system has idle time")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
+      .range(0, 1000000)
+      .show_default();
 }
 
 std::vector<Scene> open_scenes(const SceneOptions& options) {

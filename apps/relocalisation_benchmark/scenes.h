@@ -27,7 +27,7 @@ struct SceneOptions {
 };
 
 /// --scene and --settle.
-void add_scene_options(CLI::App& command, SceneOptions& options);
+void add_scene_options(apps::CommandLine& command, SceneOptions& options, bool scene_required = true);
 
 /// Opens all scenes, and checks of each recording that it is complete and has poses, before anything runs.
 ///

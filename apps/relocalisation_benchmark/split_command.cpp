@@ -53,18 +53,18 @@ int run_split(const SplitOptions& options) {
 
 }  // namespace
 
-Command add_split_command(CLI::App& app) {
+Command add_split_command(apps::CommandLine& app) {
   const auto options = std::make_shared<SplitOptions>();
-  CLI::App* command = app.add_subcommand("split", "Learn some sequences, then find the camera in others");
-  command->add_option("--train", options->training, "A sequence to learn, or a part of it as SEQUENCE@A:B; repeatable")
-      ->required()
-      ->take_all();
-  command->add_option("--test", options->tests, "A sequence to test, or a part of it as SEQUENCE@A:B; repeatable")->required()->take_all();
+  apps::CommandLine command = app.add_subcommand("split", "Learn some sequences, then find the camera in others");
+  command.add_option("--train", options->training, "A sequence to learn, or a part of it as SEQUENCE@A:B; repeatable")
+      .required()
+      .repeatable();
+  command.add_option("--test", options->tests, "A sequence to test, or a part of it as SEQUENCE@A:B; repeatable").required().repeatable();
   command
-      ->add_option("--settle", options->num_settling_updates, "Calls of update() between training and test, as a live system has idle time")
-      ->check(CLI::Range(0, 1000000))
-      ->capture_default_str();
-  add_common_options(*command, options->common);
+      .add_option("--settle", options->num_settling_updates, "Calls of update() between training and test, as a live system has idle time")
+      .range(0, 1000000)
+      .show_default();
+  add_common_options(command, options->common);
   return {command, [options] { return run_split(*options); }};
 }
 

@@ -226,25 +226,23 @@ int run_time(const TimeOptions& options) {
 
 }  // namespace
 
-Command add_time_command(CLI::App& app) {
+Command add_time_command(apps::CommandLine& app) {
   const auto options = std::make_shared<TimeOptions>();
   options->common.methods = {"forest", "ferns"};
-  CLI::App* command = app.add_subcommand("time", "What learning and finding cost, by stage, and how it grows: the paper's Table 3");
-  command->add_option("--sequence", options->sequence, "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:NAME?key=value")->required();
-  command->add_option("--frames", options->frames, "Use only frames A:B, the last one excluded")->type_name("A:B");
-  command->add_option("--train-frames", options->num_training, "Frames to learn; all frames are held in memory, 2 MB each")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--test-frames", options->num_tests, "Frames to test, spread evenly between them")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
+  apps::CommandLine command = app.add_subcommand("time", "What learning and finding cost, by stage, and how it grows: the paper's Table 3");
+  command.add_option("--sequence", options->sequence, "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:NAME?key=value").required();
+  command.add_option("--frames", options->frames, "Use only frames A:B, the last one excluded").type_name("A:B");
+  command.add_option("--train-frames", options->num_training, "Frames to learn; all frames are held in memory, 2 MB each")
+      .range(1, 100000)
+      .show_default();
+  command.add_option("--test-frames", options->num_tests, "Frames to test, spread evenly between them").range(1, 100000).show_default();
   command
-      ->add_option("--sweep", options->swept_methods,
-                   "Methods of which to measure how cost grows with trained frames, image size, hypotheses and leaves; 'none' for none")
-      ->delimiter(',')
-      ->capture_default_str();
-  add_forest_option(*command, options->common);
-  add_experiment_options(*command, options->common);
+      .add_option("--sweep", options->swept_methods,
+                  "Methods of which to measure how cost grows with trained frames, image size, hypotheses and leaves; 'none' for none")
+      .comma_separated()
+      .show_default();
+  add_forest_option(command, options->common);
+  add_experiment_options(command, options->common);
   return {command, [options] {
             if (options->swept_methods == std::vector<std::string>{"none"}) options->swept_methods.clear();
             return run_time(*options);

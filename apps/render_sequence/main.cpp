@@ -82,20 +82,18 @@ int render(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace foothold::apps;
-  CLI::App app("Writes a rendered room, or any other recording, as a folder in the layout of 7-Scenes, or as one raw file.",
-               "render_sequence");
+  CommandLine app("Writes a rendered room, or any other recording, as a folder in the layout of 7-Scenes, or as one raw file.",
+                  "render_sequence");
   Options options;
   app.add_option("--sequence", options.sequence,
                  "synthetic:ROOM?setting=value&..., or a recording's folder; @A:B at the end selects frames")
-      ->required();
+      .required();
   app.add_option("--out", options.out, "Folder to write, which must not hold frames already; with --raw, a file")
-      ->required()
-      ->type_name("DIR");
+      .required()
+      .type_name("DIR");
   app.add_flag("--raw", options.raw, "Write one file without compression instead, which needs no image library: for scripts/bench_gpu.sh");
-  app.add_option("--stride", options.stride, "Use every Nth frame")->check(CLI::Range(1, 1000000))->capture_default_str();
-  app.add_option("--threads", options.num_threads, "Host threads; 0 for as many as the machine has")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+  app.add_option("--stride", options.stride, "Use every Nth frame").range(1, 1000000).show_default();
+  app.add_option("--threads", options.num_threads, "Host threads; 0 for as many as the machine has").range(0, 1024).show_default();
   app.footer(rooms_help());
   return run_app(app, argc, argv, [&] { return render(options); });
 }

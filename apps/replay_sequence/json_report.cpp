@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include <cmath>
-#include <nlohmann/json.hpp>
-
-#include "foothold/io/settings_file.h"
+#include "common/json.h"
+#include "foothold/base/settings.h"
 #include "report.h"
 
 namespace foothold::replay {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using apps::Json;
 
 /// Raised when a key changes its meaning or goes away; new keys do not raise it.
 constexpr int kFormatVersion = 2;
 constexpr double kMb = 1e-6;
-
-/// JSON knows no NaN: what could not be measured is null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json ate_json(const AbsoluteTrajectoryError& error) {
   return {{"rmse_m", error.rmse_m}, {"mean_m", error.mean_m}, {"median_m", error.median_m}, {"max_m", error.max_m}};
@@ -34,9 +29,9 @@ Json run_json(const ReplayRun& run) {
   json["vertices"] = run.mesh.vertices.size();
   json["map_mb"] = static_cast<double>(run.map_bytes) * kMb;
   json["relocaliser_mb"] = static_cast<double>(run.relocaliser_bytes) * kMb;
-  json["timing"] = {{"wall_s", run.wall_s}, {"frames_per_second", number(static_cast<double>(counts.num_frames) / run.wall_s)}};
+  json["timing"] = {{"wall_s", run.wall_s}, {"frames_per_second", static_cast<double>(counts.num_frames) / run.wall_s}};
   for (const auto& [stage, ms] : stage_times(run)) {
-    json["timing"][stage + "_ms"] = {{"median", number(ms.median)}, {"p95", number(ms.p95)}};
+    json["timing"][stage + "_ms"] = {{"median", ms.median}, {"p95", ms.p95}};
   }
   return json;
 }
@@ -50,9 +45,9 @@ Json summary_json(const KidnapSummary& summary) {
           {"wrong_poses", summary.num_wrong},
           {"wrong_poses_believed", summary.num_wrong_believed},
           {"wrong_poses_fused", summary.num_wrong_fused},
-          {"median_frames", number(summary.median_frames)},
-          {"p95_frames", number(summary.p95_frames)},
-          {"median_ms", number(summary.median_ms)}};
+          {"median_frames", summary.median_frames},
+          {"p95_frames", summary.p95_frames},
+          {"median_ms", summary.median_ms}};
 }
 
 Json kidnap_json(const KidnapRecord& record) {
@@ -62,7 +57,7 @@ Json kidnap_json(const KidnapRecord& record) {
           {"to", record.kidnap.to},
           {"covered", record.kidnap.num_covered},
           {"judged", outcome.num_judged},
-          {"mapped", record.mapped.has_value() ? number(*record.mapped) : Json(nullptr)},
+          {"mapped", record.mapped.has_value() ? Json(*record.mapped) : Json(nullptr)},
           {"recovered", outcome.recovered},
           {"right_at_end", outcome.right_at_end},
           {"frames", outcome.recovered ? Json(outcome.num_frames) : Json(nullptr)},
@@ -73,9 +68,19 @@ Json kidnap_json(const KidnapRecord& record) {
 }
 
 Json mesh_json(const MeshDistance& distance) {
-  return {{"vertices", distance.num_vertices}, {"within_a_voxel", distance.num_within}, {"near", distance.num_near},
-          {"mean_m", number(distance.mean_m)}, {"rmse_m", number(distance.rmse_m)},     {"median_m", number(distance.median_m)},
-          {"p95_m", number(distance.p95_m)}};
+  return {{"vertices", distance.num_vertices},
+          {"within_a_voxel", distance.num_within},
+          {"near", distance.num_near},
+          {"mean_m", distance.mean_m},
+          {"rmse_m", distance.rmse_m},
+          {"median_m", distance.median_m},
+          {"p95_m", distance.p95_m}};
+}
+
+Json settings_json(const ReplaySettings& settings) {
+  std::vector<std::pair<std::string, std::string>> texts;
+  for (const SettingDescription& setting : describe_settings(settings)) texts.emplace_back(setting.path, setting.value);
+  return Json::nested(texts);
 }
 
 Json head_json(const ReplayOptions& options, const ReplaySettings& settings, const ReplayResult& result) {
@@ -96,7 +101,7 @@ Json head_json(const ReplayOptions& options, const ReplaySettings& settings, con
             {"judged", kidnaps.num_judged},
             {"independent", options.independent},
             {"seed", kidnaps.seed}}},
-          {"settings", Json::parse(settings_to_json(describe_settings(settings)))},
+          {"settings", settings_json(settings)},
           {"complete", result.complete}};
 }
 
@@ -124,7 +129,7 @@ std::string json_report(const ReplayOptions& options, const ReplaySettings& sett
     if (!record.frames.empty()) json["kidnaps"].push_back(kidnap_json(record));
   }
   json["peak_mb"] = result.peak_mb;
-  return json.dump(2) + "\n";
+  return json.dump() + "\n";
 }
 
 }  // namespace foothold::replay

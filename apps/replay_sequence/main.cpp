@@ -44,7 +44,8 @@ int run(const ReplayOptions& options) {
 }  // namespace foothold::replay
 
 int main(int argc, char** argv) {
-  CLI::App app("Reconstructs a recording with its own tracker, and takes the camera elsewhere on the way if asked to.", "replay_sequence");
+  foothold::apps::CommandLine app("Reconstructs a recording with its own tracker, and takes the camera elsewhere on the way if asked to.",
+                                  "replay_sequence");
   foothold::replay::ReplayOptions options;
   foothold::replay::add_replay_options(app, options);
   return foothold::apps::run_app(app, argc, argv, [&] { return foothold::replay::run(options); });

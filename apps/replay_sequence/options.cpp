@@ -15,57 +15,56 @@ namespace {
 /// A truncation of so many voxels covers a Kinect's noise at arm's length.
 constexpr float kTruncation_voxels = 4.0F;
 
-void add_kidnap_options(CLI::App& app, ReplayOptions& options) {
+void add_kidnap_options(apps::CommandLine& app, ReplayOptions& options) {
   KidnapOptions& kidnaps = options.kidnaps;
-  const CLI::Range count(0, 100000);
-  const CLI::Range length(1, 1000000);
+  constexpr int kMostKidnaps = 100000;
+  constexpr int kMostFrames = 1000000;
   app.add_option("--kidnap", kidnaps.num_removed, "Leave out so many stretches of frames, at random places")
-      ->check(count)
-      ->capture_default_str();
-  app.add_option("--kidnap-length", kidnaps.removed_length, "Frames of each")->check(length)->capture_default_str();
+      .range(0, kMostKidnaps)
+      .show_default();
+  app.add_option("--kidnap-length", kidnaps.removed_length, "Frames of each").range(1, kMostFrames).show_default();
   app.add_option("--teleport", kidnaps.num_teleports, "Jump back so many times to an earlier part, and then return")
-      ->check(count)
-      ->capture_default_str();
+      .range(0, kMostKidnaps)
+      .show_default();
   app.add_option("--blackout", kidnaps.num_blackouts, "Cover the lens so many times while the camera moves on")
-      ->check(count)
-      ->capture_default_str();
-  app.add_option("--blackout-length", kidnaps.blackout_length, "Frames of each")->check(length)->capture_default_str();
-  app.add_option("--judged", kidnaps.num_judged, "Frames after each of these by which it is judged")->check(length)->capture_default_str();
+      .range(0, kMostKidnaps)
+      .show_default();
+  app.add_option("--blackout-length", kidnaps.blackout_length, "Frames of each").range(1, kMostFrames).show_default();
+  app.add_option("--judged", kidnaps.num_judged, "Frames after each of these by which it is judged").range(1, kMostFrames).show_default();
   app.add_flag("--independent", options.independent, "Each of these alone, out of an undisturbed run whose state is copied");
-  app.add_option("--seed", kidnaps.seed, "Seed of every random choice")->capture_default_str();
+  app.add_option("--seed", kidnaps.seed, "Seed of every random choice").show_default();
 }
 
-void add_output_options(CLI::App& app, ReplayOptions& options) {
-  app.add_option("--save-mesh", options.mesh_file, "Write the reconstructed surface as PLY")->type_name("FILE");
+void add_output_options(apps::CommandLine& app, ReplayOptions& options) {
+  app.add_option("--save-mesh", options.mesh_file, "Write the reconstructed surface as PLY").type_name("FILE");
   app.add_option("--save-picture", options.picture_file, "Write a picture of the reconstructed surface from outside as PNG")
-      ->type_name("FILE");
+      .type_name("FILE");
   app.add_option("--save-trajectory", options.trajectory_file, "Write the camera's poses in the format of the TUM RGB-D benchmark")
-      ->type_name("FILE");
-  app.add_option("--json", options.json_file, "Write the results (docs/replay.md)")->type_name("FILE");
-  app.add_option("--video", options.video_folder, "Write the view of each frame as a PNG into a folder")->type_name("DIR");
-  app.add_option("--video-every", options.video_every, "Only of every Nth frame")->check(CLI::Range(1, 1000000))->capture_default_str();
+      .type_name("FILE");
+  app.add_option("--json", options.json_file, "Write the results (docs/replay.md)").type_name("FILE");
+  app.add_option("--video", options.video_folder, "Write the view of each frame as a PNG into a folder").type_name("DIR");
+  app.add_option("--video-every", options.video_every, "Only of every Nth frame").range(1, 1000000).show_default();
   app.add_flag("--show", options.show, "Show the view in a window");
 }
 
 }  // namespace
 
-void add_replay_options(CLI::App& app, ReplayOptions& options) {
+void add_replay_options(apps::CommandLine& app, ReplayOptions& options) {
   app.add_option("sequence", options.sequence,
                  "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:ROOM?setting=value&...; @A:B at the end selects frames")
-      ->required()
-      ->type_name("SEQUENCE");
+      .required()
+      .type_name("SEQUENCE");
   app.add_option("--method", options.method, "What finds a lost camera: forest, ferns or none")
-      ->check(CLI::IsMember({"forest", "ferns", "none"}))
-      ->capture_default_str();
+      .one_of({"forest", "ferns", "none"})
+      .show_default();
   app.add_option("--forest", options.forest, "A forest file, 'default', or 'random' for one made from the settings random_forest.*")
-      ->capture_default_str();
+      .show_default();
   add_kidnap_options(app, options);
   add_output_options(app, options);
-  app.add_option("--voxel", options.voxel_size_m, "Size of a voxel [m]; sets the truncation to four of them")
-      ->check(CLI::Range(0.001F, 0.1F));
-  app.add_option("--stride", options.stride, "Use every Nth frame")->check(CLI::Range(1, 1000000))->capture_default_str();
+  app.add_option("--voxel", options.voxel_size_m, "Size of a voxel [m]; sets the truncation to four of them").range(0.001F, 0.1F);
+  app.add_option("--stride", options.stride, "Use every Nth frame").range(1, 1000000).show_default();
   app.add_option("--settings", options.settings_file, "JSON file of settings: {\"fusion\": {\"volume\": {\"max_depth_m\": 4}}}");
-  app.add_option("--set", options.settings, "One setting as path=value, such as fusion.volume.max_depth_m=4; repeatable")->take_all();
+  app.add_option("--set", options.settings, "One setting as path=value, such as fusion.volume.max_depth_m=4; repeatable").repeatable();
   apps::add_device_options(app, options.device);
   app.add_flag("--exclusive-timing", options.exclusive_timing,
                "Decode frames between the timed calls, not beside them in a thread: slower, but gives processor time per frame");

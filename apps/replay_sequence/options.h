@@ -55,7 +55,7 @@ struct ReplayOptions {
   bool exclusive_timing = false;
 };
 
-void add_replay_options(CLI::App& app, ReplayOptions& options);
+void add_replay_options(apps::CommandLine& app, ReplayOptions& options);
 
 /// The settings: seed and --voxel, then the settings file, then --set. @throws InvalidSettings, FileError
 ReplaySettings replay_settings(const ReplayOptions& options);

@@ -143,37 +143,37 @@ int show_info(const Options& options) {
 int main(int argc, char** argv) {
   using namespace foothold;
   using namespace foothold::apps;
-  CLI::App app("Trains the branches of a forest on recordings with known poses.", "train_forest");
+  CommandLine app("Trains the branches of a forest on recordings with known poses.", "train_forest");
   Options options;
   app.add_option(
          "--sequence", options.sequences,
          "A recording to train with, a scene of its own: a folder or synthetic:ROOM?setting=value&..., with @A:B for a part; repeatable")
-      ->take_all();
-  app.add_option("--out", options.out, "File to write the forest to")->type_name("FILE");
+      .repeatable();
+  app.add_option("--out", options.out, "File to write the forest to").type_name("FILE");
   for (const auto& shortcut : kShortcuts)
-    app.add_option(shortcut.option, options.settings[shortcut.setting], std::string("Setting ") + shortcut.setting)->type_name("N");
-  app.add_option("--settings", options.settings_file, "JSON file of settings")->type_name("FILE");
-  app.add_option("--set", options.assignments, "One setting as setting=value; repeatable")->take_all();
-  app.add_option("--note", options.notes, "A line to add to what `info` prints, such as 'commit = abc'; repeatable")->take_all();
+    app.add_option(shortcut.option, options.settings[shortcut.setting], std::string("Setting ") + shortcut.setting).type_name("N");
+  app.add_option("--settings", options.settings_file, "JSON file of settings").type_name("FILE");
+  app.add_option("--set", options.assignments, "One setting as setting=value; repeatable").repeatable();
+  app.add_option("--note", options.notes, "A line to add to what `info` prints, such as 'commit = abc'; repeatable").repeatable();
   app.add_option("--threads", options.num_threads, "Threads; 0 for as many as the machine has. The forest does not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
+      .range(0, 1024)
+      .show_default();
   app.add_flag("--resume", options.resume, "Go on with the interrupted training whose checkpoint lies beside --out, if there is one");
   app.footer(settings_help<ForestTrainingSettings>());
-  app.require_subcommand(0, 1);
+  app.require_subcommands(0, 1);
 
-  CLI::App* random = app.add_subcommand("random", "Writes a data-free forest: complete trees of random splits");
-  random->add_option("--out", options.out, "File to write the forest to")->required()->type_name("FILE");
-  random->add_option("--seed", options.settings["seed"], "Setting seed")->type_name("N");
-  random->add_option("--settings", options.settings_file, "JSON file of settings")->type_name("FILE");
-  random->add_option("--set", options.assignments, "One setting as setting=value; repeatable")->take_all();
-  random->footer(settings_help<RandomForestSettings>());
+  CommandLine random = app.add_subcommand("random", "Writes a data-free forest: complete trees of random splits");
+  random.add_option("--out", options.out, "File to write the forest to").required().type_name("FILE");
+  random.add_option("--seed", options.settings["seed"], "Setting seed").type_name("N");
+  random.add_option("--settings", options.settings_file, "JSON file of settings").type_name("FILE");
+  random.add_option("--set", options.assignments, "One setting as setting=value; repeatable").repeatable();
+  random.footer(settings_help<RandomForestSettings>());
 
-  CLI::App* info = app.add_subcommand("info", "Tells what a forest file holds and where it comes from");
-  info->add_option("file", options.forest_file, "A forest")->required()->type_name("FILE");
+  CommandLine info = app.add_subcommand("info", "Tells what a forest file holds and where it comes from");
+  info.add_option("file", options.forest_file, "A forest").required().type_name("FILE");
 
   return run_app(app, argc, argv, [&] {
-    if (random->parsed()) return make_random(options);
-    return info->parsed() ? show_info(options) : train(options);
+    if (random.parsed()) return make_random(options);
+    return info.parsed() ? show_info(options) : train(options);
   });
 }

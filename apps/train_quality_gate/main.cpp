@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "common/app_main.h"
+#include "common/json.h"
 #include "common/override_settings.h"
 #include "common/progress_bar.h"
 #include "foothold/base/error.h"
@@ -80,9 +80,9 @@ QualityExamples collect(const Context& context, const std::vector<std::string>& 
   return examples;
 }
 
-nlohmann::json to_json(const ClassifierReport& report) {
-  nlohmann::json roc = nlohmann::json::array();
-  for (const RocPoint& point : report.roc) roc.push_back({point.false_positive_rate, point.true_positive_rate});
+Json to_json(const ClassifierReport& report) {
+  Json roc = Json::array();
+  for (const RocPoint& point : report.roc) roc.push_back(Json::array({point.false_positive_rate, point.true_positive_rate}));
   return {{"num_positive", report.num_positive},
           {"num_negative", report.num_negative},
           {"auc", report.auc},
@@ -265,7 +265,7 @@ int train(const Options& options) {
   std::filesystem::create_directories(folder);
   if (options.save_examples) save_examples(folder, tasks, origin);
 
-  nlohmann::json json;
+  Json json;
   std::vector<NamedReport> plots;
   for (const Task& task : tasks) {
     ClassifierReport report;
@@ -283,7 +283,7 @@ int train(const Options& options) {
     json[task.name]["other_recordings"] = to_json(test);
   }
   write_png((folder / "roc.png").string(), draw_roc(plots));
-  write_file_atomically((folder / "report.json").string(), json.dump(1) + "\n");
+  write_file_atomically((folder / "report.json").string(), json.dump() + "\n");
   return kSuccess;
 }
 
@@ -293,27 +293,27 @@ int train(const Options& options) {
 int main(int argc, char** argv) {
   using namespace foothold;
   using namespace foothold::apps;
-  CLI::App app("Trains the classifiers that judge tracking and accept relocalised poses, and plots how well they tell right from wrong.",
-               "train_quality_gate");
+  CommandLine app("Trains the classifiers that judge tracking and accept relocalised poses, and plots how well they tell right from wrong.",
+                  "train_quality_gate");
   Options options;
   app.add_option("--sequence", options.sequences,
                  "A recording with known poses to train on: a folder or synthetic:ROOM?setting=value&..., with @A:B for a part; repeatable")
-      ->take_all();
+      .repeatable();
   app.add_option("--views", options.views, "Other frames of the same world, tried on its map; one for each --sequence, in their order")
-      ->take_all();
-  app.add_option("--test-sequence", options.test_sequences, "A recording to test on, not to train on; repeatable")->take_all();
+      .repeatable();
+  app.add_option("--test-sequence", options.test_sequences, "A recording to test on, not to train on; repeatable").repeatable();
   app.add_option("--test-views", options.test_views, "Other frames of the same world; one for each --test-sequence, in their order")
-      ->take_all();
+      .repeatable();
   app.add_option("--out", options.out_folder, "Folder for tracking_quality.txt, pose_acceptance.txt, report.json and roc.png")
-      ->type_name("FOLDER")
-      ->capture_default_str();
+      .type_name("FOLDER")
+      .show_default();
   app.add_flag("--save-examples", options.save_examples, "Write the examples into the folder, too, as CSV files");
   app.add_option("--examples", options.examples_folders,
                  "Train on what --save-examples wrote into FOLDER instead of on recordings; repeatable, for collections made side by side")
-      ->type_name("FOLDER")
-      ->take_all();
-  app.add_option("--settings", options.settings_file, "JSON file of settings")->type_name("FILE");
-  app.add_option("--set", options.assignments, "One setting as setting=value; repeatable")->take_all();
+      .type_name("FOLDER")
+      .repeatable();
+  app.add_option("--settings", options.settings_file, "JSON file of settings").type_name("FILE");
+  app.add_option("--set", options.assignments, "One setting as setting=value; repeatable").repeatable();
   add_device_options(app, options.device);
   return run_app(app, argc, argv, [&] { return train(options); });
 }

@@ -31,9 +31,8 @@ ALLOWED_BELOW = {"modules/openni/virtual_camera": ["io"]}
 LIBRARIES = [
     ("OpenCV", r"opencv2?/", ["modules/io", "modules/learning", "apps", "tests/io", "tests/learning", "tests/apps"]),
     ("OpenNI2", r"(OpenNI|Oni[A-Z]\w*|PS1080|Driver/OniDriverAPI)\.h$|openni2/", ["modules/openni", "tests/openni"]),
-    ("nlohmann-json", r"nlohmann/", ["modules/io", "modules/learning", "apps", "tests/io", "tests/learning", "tests/apps"]),
-    ("CLI11", r"CLI/", ["apps"]),
-    ("spdlog", r"spdlog/", ["apps"]),
+    ("nlohmann-json", r"nlohmann/", ["modules/io", "apps/common/json.cpp"]),
+    ("CLI11", r"CLI/", ["apps/common/command_line.cpp"]),
     ("oneTBB", r"(oneapi/)?tbb/", ["modules/base/include/foothold/base/exec", "modules/base/src", "tests/support"]),
     ("OpenMP", r"omp\.h$", []),
     ("Catch2", r"catch2/", ["tests"]),

@@ -10,7 +10,7 @@ function(run)
 endfunction()
 
 set(disabled)
-foreach(package OpenCV OpenNI2 nlohmann_json CLI11 spdlog Catch2)
+foreach(package OpenCV OpenNI2 nlohmann_json CLI11 Catch2)
   list(APPEND disabled -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
 

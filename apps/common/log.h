@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Messages of the apps, on stderr, so that stdout holds results only.
+#pragma once
+
+#include <string>
+
+#include "foothold/base/context.h"
+
+namespace foothold::apps {
+
+/// Each writes a line such as "error: message". May be called by several threads.
+void log_info(const std::string& message);
+void log_warning(const std::string& message);
+void log_error(const std::string& message);
+
+/// Writes the library's messages there too, for ContextOptions::log.
+LogSink log_to_stderr();
+
+}  // namespace foothold::apps
