@@ -7,21 +7,20 @@
 #include <sstream>
 #include <utility>
 
-#include "clustering/leaf_modes.h"
+#include "examples/training_examples.h"
 #include "foothold/base/binary_stream.h"
 #include "foothold/base/checksum.h"
 #include "foothold/base/contract.h"
+#include "foothold/base/random.h"
 #include "forest/device_forest.h"
-#include "pose/confidence.h"
-#include "pose/explain.h"
-#include "pose/pose_estimator.h"
-#include "reservoirs/leaf_reservoirs.h"
+#include "places/place_search.h"
+#include "places/scene_places.h"
 
 namespace foothold {
 namespace {
 
 constexpr std::uint64_t kSceneMagic = 0x454e454353484fULL;
-constexpr std::uint32_t kSceneVersion = 2;  // 2: checksummed
+constexpr std::uint32_t kSceneVersion = 3;  // 3: place by place
 constexpr float kRigidTolerance = 1e-2F;
 
 /// Reads the reservoirs' and modes' bytes, which stand behind their size and checksum, in bounded steps: a lying size must not exhaust
@@ -65,19 +64,14 @@ struct ForestRelocaliser::State {
         device_forest(context.memory(), forest, settings.num_rolls),
         image(context),
         examples(context.memory()),
-        reservoirs(context, forest.num_leaves(), settings.reservoirs, settings.seed),
-        modes(context, forest.num_leaves(), settings.clustering),
-        estimator(context, SearchPlan(settings.pose, settings.seed)) {}
+        places(context, forest.num_leaves(), settings),
+        search(context, settings) {}
 
   /// @param explanation  Output: what the answer was made from; nullptr for none.
   std::vector<PoseEstimate> answer(const Frame& frame, Explanation* explanation);
-  /// Rolls but the upright one from which an answer is to be expected, the most promising first.
-  std::vector<int> promising_rolls(const PoseQuery& query);
-  /// Estimates as seen by a camera with one of the forest's rolls.
-  std::vector<PoseEstimate> attempt(const PoseQuery& query, int roll);
-  bool is_sure(const std::vector<PoseEstimate>& estimates) const {
-    return !estimates.empty() && estimates.front().confidence >= settings.sure_confidence;
-  }
+  void learn(const Frame& frame, const SE3& world_from_camera);
+  /// Spends one frame's budget of clustering on the place that learnt last, if there is anything left to do.
+  void cluster();
 
   Context context;
   Forest forest;
@@ -85,60 +79,50 @@ struct ForestRelocaliser::State {
   DeviceForest device_forest;
   FeatureImage image;
   TrainingExamples examples;
-  LeafReservoirs reservoirs;
-  LeafModes modes;
-  PoseEstimator estimator;
+  ScenePlaces places;
+  PlaceSearch search;
+  std::uint64_t num_frames = 0;    ///< learnt
+  std::size_t learning_place = 0;  ///< the one that learnt last
 };
 
 std::vector<PoseEstimate> ForestRelocaliser::State::answer(const Frame& frame, Explanation* explanation) {
   expect_usable(context, frame);
-  if (reservoirs.num_frames() == 0 || !has_blocks(frame, settings.features)) return {};
+  if (places.empty() || !has_blocks(frame, settings.features)) return {};
   {
     const ScopedStage stage(context, "relocalise/features");
     image.compute(context, frame, scaled_to_width(settings.features.downscale, frame.depth.width));
   }
-  const PoseQuery query{frame, image, reservoirs.view(), modes.view()};
-  estimator.prepare(context, query);
-  std::vector<PoseEstimate> best;
-  const auto try_roll = [&](int roll) {
-    std::vector<PoseEstimate> estimates = attempt(query, roll);
-    if (estimates.empty() || (!best.empty() && estimates.front().confidence <= best.front().confidence)) return;
-    best = std::move(estimates);
-    if (explanation != nullptr) *explanation = foothold::explain(estimator, best, reservoirs.origin_world());
-  };
-  try_roll(0);
-  if (is_sure(best)) return best;
-  for (const int roll : promising_rolls(query)) {
-    try_roll(roll);
-    if (is_sure(best)) break;
-  }
-  return best;
+  return search.find(context, {frame, image}, device_forest, places, explanation);
 }
 
-std::vector<int> ForestRelocaliser::State::promising_rolls(const PoseQuery& query) {
-  std::vector<ForestView> forests;
-  for (int roll = 1; roll < device_forest.num_rolls(); ++roll) forests.push_back(device_forest.view(roll));
-  const std::vector<std::uint32_t> counts = estimator.count_hypotheses(context, query, forests);
-  const auto count_of = [&](int roll) { return counts[static_cast<std::size_t>(roll) - 1]; };
-  std::vector<int> rolls;
-  for (int roll = 1; roll < device_forest.num_rolls(); ++roll) {
-    if (count_of(roll) > 0) rolls.push_back(roll);
+void ForestRelocaliser::State::learn(const Frame& frame, const SE3& world_from_camera) {
+  learning_place = places.learning(world_from_camera.translation);
+  Place& place = places[learning_place];
+  {
+    const ScopedStage stage(context, "train/sample");
+    constexpr std::uint64_t kSamplingStream = 0;
+    const std::uint64_t frame_seed = derive_seed(derive_seed(settings.seed, kSamplingStream), num_frames++);
+    const SE3 place_from_camera = place.place_from_camera(world_from_camera);
+    sample_examples(context, frame, settings.reservoirs, place_from_camera, frame_seed, examples);
+    place.learnt.keep_new(context, place_from_camera.translation, settings.reservoirs.examples_per_view, examples);
   }
-  std::stable_sort(rolls.begin(), rolls.end(), [&](int a, int b) { return count_of(a) > count_of(b); });
-  return rolls;
+  if (examples.pixels.empty()) return;
+  {
+    const ScopedStage stage(context, "train/features");
+    image.compute(context, frame, scaled_to_width(settings.features.downscale, frame.depth.width));
+    colour_examples(context, image, examples);
+    examples.leaves.resize(examples.pixels.size() * static_cast<std::size_t>(forest.num_trees()));
+    find_leaves(context, image, device_forest.view(), Span<const SampledPixel>(examples.pixels), Span<std::uint32_t>(examples.leaves));
+  }
+  const ScopedStage stage(context, "train/insert");
+  place.reservoirs.insert(context, examples);
+  place.is_settled = false;
 }
 
-std::vector<PoseEstimate> ForestRelocaliser::State::attempt(const PoseQuery& query, int roll) {
-  std::vector<PoseEstimate> estimates;
-  for (const PoseCandidate& candidate : estimator.estimate(context, query, device_forest.view(roll))) {
-    SE3 world_from_camera = candidate.scene_from_camera;
-    world_from_camera.rotation = nearest_rotation(world_from_camera.rotation);
-    world_from_camera.translation += reservoirs.origin_world();
-    // Candidates behind the best were not aligned, and must not appear surer than it is.
-    const float confidence = confidence_of(candidate);
-    estimates.push_back({world_from_camera, estimates.empty() ? confidence : std::min(confidence, estimates.front().confidence)});
-  }
-  return estimates;
+void ForestRelocaliser::State::cluster() {
+  if (places.empty() || places[learning_place].is_settled) return;
+  Place& place = places[learning_place];
+  place.is_settled = !place.modes.update(context, place.reservoirs);
 }
 
 ForestRelocaliser::ForestRelocaliser(const Context& context, Forest forest, const ForestRelocaliserSettings& settings) {
@@ -165,32 +149,21 @@ ForestRelocaliser::State& ForestRelocaliser::state() const {
 const Forest& ForestRelocaliser::forest() const { return state().forest; }
 const ForestRelocaliserSettings& ForestRelocaliser::settings() const { return state().settings; }
 float ForestRelocaliser::acceptance_threshold() const { return state().settings.acceptance_threshold; }
-std::size_t ForestRelocaliser::state_bytes() const { return state().reservoirs.state_bytes() + state().modes.state_bytes(); }
+std::size_t ForestRelocaliser::state_bytes() const { return state().places.state_bytes(); }
 
 void ForestRelocaliser::train(const Frame& frame, const SE3& world_from_camera) {
   State& s = state();
   expect_usable(s.context, frame);
   FOOTHOLD_EXPECTS(is_rigid(world_from_camera, kRigidTolerance));
   if (!has_blocks(frame, s.settings.features)) return;
-  {
-    const ScopedStage stage(s.context, "train/features");
-    s.image.compute(s.context, frame, scaled_to_width(s.settings.features.downscale, frame.depth.width));
-    s.reservoirs.sample(s.context, frame, s.image, world_from_camera, s.examples);
-    s.examples.leaves.resize(s.examples.pixels.size() * static_cast<std::size_t>(s.forest.num_trees()));
-    find_leaves(s.context, s.image, s.device_forest.view(), Span<const SampledPixel>(s.examples.pixels),
-                Span<std::uint32_t>(s.examples.leaves));
-  }
-  {
-    const ScopedStage stage(s.context, "train/insert");
-    s.reservoirs.insert(s.context, s.examples);
-  }
+  s.learn(frame, world_from_camera);
   const ScopedStage stage(s.context, "train/cluster");
-  s.modes.update(s.context, s.reservoirs);
+  s.cluster();
 }
 
 void ForestRelocaliser::update() {
   const ScopedStage stage(state().context, "update/cluster");
-  state().modes.update(state().context, state().reservoirs);
+  state().cluster();
 }
 
 std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) { return state().answer(frame, nullptr); }
@@ -202,8 +175,9 @@ Explanation ForestRelocaliser::explain(const Frame& frame) {
 }
 
 void ForestRelocaliser::reset() {
-  state().reservoirs.clear();
-  state().modes.clear();
+  state().places.clear();
+  state().num_frames = 0;
+  state().learning_place = 0;
 }
 
 void ForestRelocaliser::save(std::ostream& stream) const {
@@ -214,8 +188,8 @@ void ForestRelocaliser::save(std::ostream& stream) const {
   write_value(stream, s.settings.reservoirs.capacity);
   write_value(stream, s.settings.clustering.max_modes);
   std::ostringstream body_stream;
-  s.reservoirs.save(body_stream);
-  s.modes.save(body_stream);
+  write_value(body_stream, s.num_frames);
+  s.places.save(body_stream);
   const std::string body = body_stream.str();
   write_value(stream, static_cast<std::uint64_t>(body.size()));
   write_value(stream, fnv1a(kFnvBasis, body.data(), body.size()));
@@ -240,13 +214,13 @@ void ForestRelocaliser::load(std::istream& stream) {
                     " and clustering.max_modes = " + std::to_string(max_modes) + ", expected " +
                     std::to_string(s.settings.reservoirs.capacity) + " and " + std::to_string(s.settings.clustering.max_modes));
   }
-  LeafReservoirs reservoirs(s.context, s.forest.num_leaves(), s.settings.reservoirs, s.settings.seed);
-  LeafModes modes(s.context, s.forest.num_leaves(), s.settings.clustering);
+  ScenePlaces places(s.context, s.forest.num_leaves(), s.settings);
   std::istringstream body(read_body(stream));
-  reservoirs.load(body);
-  modes.load(body);
-  s.reservoirs = std::move(reservoirs);
-  s.modes = std::move(modes);
+  const auto num_frames = read_value<std::uint64_t>(body, "frame count");
+  places.load(body);
+  s.places = std::move(places);
+  s.num_frames = num_frames;
+  s.learning_place = 0;
 }
 
 }  // namespace foothold

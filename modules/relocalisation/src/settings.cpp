@@ -12,6 +12,7 @@ ForestRelocaliserSettings paper_preset() {
   settings.reservoirs.capacity = 1024;
   settings.reservoirs.grid_spacing_px = 4;
   settings.reservoirs.jitter = false;
+  settings.reservoirs.examples_per_view = 0;
   settings.clustering.min_cluster_size = 20;
   settings.clustering.covariance_floor_m = 0.02F;
   settings.clustering.touched_first = false;
@@ -20,6 +21,7 @@ ForestRelocaliserSettings paper_preset() {
   settings.pose.num_hypotheses = 1024;
   settings.pose.as_published = true;
   settings.num_rolls = 1;
+  settings.place_radius_m = 16.0F;
   return settings;
 }
 

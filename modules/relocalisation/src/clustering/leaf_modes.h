@@ -39,7 +39,8 @@ class LeafModes {
   LeafModes(const Context& context, int num_leaves, const ClusteringSettings& settings);
 
   /// Renews the modes of the leaves whose turn it is: round robin as in the paper, or those whose reservoirs changed most.
-  void update(const Context& context, LeafReservoirs& reservoirs);
+  /// @return False if no leaf had changed.
+  bool update(const Context& context, LeafReservoirs& reservoirs);
 
   LeafModesView view() { return {modes_.view(), num_modes_.data(), num_owned_blocks_.data()}; }
   std::size_t state_bytes() const;

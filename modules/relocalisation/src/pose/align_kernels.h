@@ -151,8 +151,8 @@ void estimate_surfaces(const Executor& executor, const PoseQuery& query, const C
 template <class Executor>
 class Aligner {
  public:
-  Aligner(const Context& context, const PoseQuery& query, const ForestView& forest)
-      : executor_(context), query_(query), num_trees_(forest.num_trees) {}
+  Aligner(const Context& context, const PoseQuery& query, const LeafReservoirsView& reservoirs, const ForestView& forest)
+      : executor_(context), query_(query), reservoirs_(reservoirs), num_trees_(forest.num_trees) {}
 
   void run(const CorrespondencePool& pool, const Ranking& ranking, Hypotheses& hypotheses, Alignment& alignment) const {
     AlignmentState* const state = alignment.state.data();
@@ -181,7 +181,7 @@ class Aligner {
     const float progress = static_cast<float>(step) / static_cast<float>(kLeafSteps - 1);
     const float radius_m = kFirstReachM + (kLastReachM - kFirstReachM) * progress;
     executor_.for_each(static_cast<std::size_t>(num_used) * static_cast<std::size_t>(num_trees_),
-                       MeasureOffset{query_.reservoirs, num_trees_, pool.sampled.size(), pool.leaves.data(), alignment.surfaces.data(),
+                       MeasureOffset{reservoirs_, num_trees_, pool.sampled.size(), pool.leaves.data(), alignment.surfaces.data(),
                                      1000.0F * radius_m, alignment.state.data(), alignment.offsets.data()});
     executor_.for_each_team(1, AlignWithPoints<Executor>{num_trees_, alignment.surfaces.data(), alignment.offsets.data(), num_used,
                                                          radius_m, alignment.state.data()});
@@ -189,6 +189,7 @@ class Aligner {
 
   Executor executor_;
   const PoseQuery& query_;
+  const LeafReservoirsView& reservoirs_;
   int num_trees_;
 };
 

@@ -32,8 +32,7 @@ struct Hypotheses {
       : poses(memory, static_cast<std::size_t>(num_hypotheses)),
         energies(memory, poses.size()),
         order(memory, poses.size()),
-        sort_buffer(memory),
-        num_drawn(memory) {}
+        sort_buffer(memory) {}
 
   HypothesesView view() { return {poses.data(), energies.data(), order.data()}; }
 
@@ -41,7 +40,6 @@ struct Hypotheses {
   Array<float> energies;
   Array<std::uint64_t> order;
   Array<std::uint64_t> sort_buffer;
-  Array<std::uint32_t> num_drawn;  ///< of each set that was drawn and counted
 };
 
 }  // namespace foothold

@@ -109,21 +109,6 @@ struct DrawHypothesis {
   }
 };
 
-/// Counts the hypotheses that did not fail.
-template <class Executor>
-struct CountDrawn {
-  const float* energies;
-  int num_hypotheses;
-  std::uint32_t* count;
-
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
-    float sum = 0.0F;
-    for (int i = team.lane(); i < num_hypotheses; i += team.size()) sum += energies[i] < kFailedEnergy ? 1.0F : 0.0F;
-    sum = team.sum(sum);
-    if (team.lane() == 0) *count = static_cast<std::uint32_t>(sum);
-  }
-};
-
 /// Sort key of a hypothesis: its energy's bits order as the energy does, since energies are not negative.
 struct MakeEnergyKey {
   HypothesesView hypotheses;

@@ -46,8 +46,7 @@ struct CorrespondencePool {
     modes.resize(leaves.size() * static_cast<std::size_t>(max_modes));
   }
 
-  /// @param pool_size  that the pool was last filled to.
-  CorrespondencePoolView view(int pool_size) const { return {pixels.data(), modes.data(), slots.data() + pool_size}; }
+  CorrespondencePoolView view() const { return {pixels.data(), modes.data(), slots.data() + sampled.size()}; }
 
   Array<SampledPixel> sampled;
   Array<std::uint32_t> leaves;  ///< tree by tree

@@ -109,22 +109,23 @@ void sample_pool(const Executor& executor, const PoseQuery& query, std::uint64_t
                                                          static_cast<std::uint32_t>(pool.sampled.size()), pool.sampled.data()});
 }
 
-/// Fills the pool with the first `pool_size` of the sampled pixels that reach leaves with modes.
+/// Fills the pool with the sampled pixels that reach leaves with modes.
 template <class Executor>
-void fill_pool(const Context& context, const PoseQuery& query, const ForestView& forest, int pool_size, CorrespondencePool& pool) {
+void fill_pool(const Context& context, const PoseQuery& query, const LeafModesView& leaf_modes, const ForestView& forest,
+               CorrespondencePool& pool) {
   const Executor executor(context);
-  const auto size = static_cast<std::size_t>(pool_size);
+  const std::size_t size = pool.sampled.size();
   const auto num_leaves = static_cast<std::uint32_t>(forest.num_leaves);
   find_leaves(context, query.image, forest, Span<const SampledPixel>(pool.sampled.data(), size),
               Span<std::uint32_t>(pool.leaves.data(), size * static_cast<std::size_t>(forest.num_trees)));
-  executor.for_each(size, CountModes{query.leaf_modes, forest.num_trees, num_leaves, size, pool.leaves.data(), pool.mode_counts.data(),
-                                     pool.has_modes.data()});
+  executor.for_each(
+      size, CountModes{leaf_modes, forest.num_trees, num_leaves, size, pool.leaves.data(), pool.mode_counts.data(), pool.has_modes.data()});
   const auto scan = [&](const Array<std::uint32_t>& counts, Array<std::uint32_t>& sums) {
     executor.exclusive_scan(Span<const std::uint32_t>(counts.data(), size), Span<std::uint32_t>(sums.data(), size + 1));
   };
   scan(pool.mode_counts, pool.first_modes);
   scan(pool.has_modes, pool.slots);
-  executor.for_each(size, GatherPixel{query.frame.calibration.depth, query.image.view(), query.image.downscale(), query.leaf_modes,
+  executor.for_each(size, GatherPixel{query.frame.calibration.depth, query.image.view(), query.image.downscale(), leaf_modes,
                                       forest.num_trees, num_leaves, size, pool.sampled.data(), pool.leaves.data(), pool.mode_counts.data(),
                                       pool.first_modes.data(), pool.slots.data(), pool.pixels.data(), pool.modes.data()});
 }

@@ -23,8 +23,8 @@ PoseBuffers::PoseBuffers(MemoryKind memory, const SearchPlan& plan)
 
 PoseEstimator::PoseEstimator(const Context& context, const SearchPlan& plan) : plan_(plan), buffers_(context.memory(), plan) {}
 
-void PoseEstimator::make_room_for(const PoseQuery& query, const ForestView& forest) {
-  buffers_.pool.make_room(forest.num_trees, query.leaf_modes.modes.max_blocks * kModeBlockSize);
+void PoseEstimator::make_room_for(const PlaceView& place, const ForestView& forest) {
+  buffers_.pool.make_room(forest.num_trees, place.leaf_modes.modes.max_blocks * kModeBlockSize);
   buffers_.alignment.offsets.resize(buffers_.alignment.surfaces.size() * static_cast<std::size_t>(forest.num_trees));
 }
 
@@ -33,24 +33,11 @@ void PoseEstimator::prepare(const Context& context, const PoseQuery& query) {
   dispatch(context, [&](auto on) { PoseAlgorithms<typename decltype(on)::Executor>::prepare(context, query, plan_, buffers_); });
 }
 
-std::vector<std::uint32_t> PoseEstimator::count_hypotheses(const Context& context, const PoseQuery& query,
-                                                           const std::vector<ForestView>& forests) {
-  if (forests.empty()) return {};
-  const ScopedStage stage(context, "relocalise/screen");
-  Array<std::uint32_t>& counts = buffers_.hypotheses.num_drawn;
-  counts.resize(forests.size());
-  for (std::size_t i = 0; i < forests.size(); ++i) {
-    make_room_for(query, forests[i]);
-    dispatch(context, [&](auto on) {
-      PoseAlgorithms<typename decltype(on)::Executor>::screen(context, query, forests[i], plan_, buffers_, counts.data() + i);
-    });
-  }
-  return counts.to_host(context);
-}
-
-std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const PoseQuery& query, const ForestView& forest) {
-  make_room_for(query, forest);
-  dispatch(context, [&](auto on) { PoseAlgorithms<typename decltype(on)::Executor>::estimate(context, query, forest, plan_, buffers_); });
+std::vector<PoseCandidate> PoseEstimator::estimate(const Context& context, const PoseQuery& query, const PlaceView& place,
+                                                   const ForestView& forest) {
+  make_room_for(place, forest);
+  dispatch(context,
+           [&](auto on) { PoseAlgorithms<typename decltype(on)::Executor>::estimate(context, query, place, forest, plan_, buffers_); });
   std::vector<PoseCandidate> candidates = buffers_.candidates.to_host(context);
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), [](const PoseCandidate& c) { return c.valid == 0; }),
                    candidates.end());

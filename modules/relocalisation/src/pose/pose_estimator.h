@@ -39,25 +39,20 @@ class PoseEstimator {
  public:
   PoseEstimator(const Context& context, const SearchPlan& plan);
 
-  /// Chooses the pixels and the remembered points that every estimate of this query uses, however the camera is rolled.
+  /// Chooses the pixels that every estimate of this query uses, in whatever place and however the camera is rolled.
   void prepare(const Context& context, const PoseQuery& query);
 
-  /// Draws a few hypotheses on a few pixels with each forest, and counts those that pass the geometric checks: a cheap sign of which
-  /// estimates are worth their cost. From one that counts none, nothing is to be expected.
-  /// @param forests  turned to as many rolls of the camera.
-  /// @pre prepare() was called last with the same query.
-  std::vector<std::uint32_t> count_hypotheses(const Context& context, const PoseQuery& query, const std::vector<ForestView>& forests);
-
   /// @param forest  turned to a roll of the camera.
-  /// @return        Candidates, best first. Empty if no triple passed the geometric checks: a normal outcome, not an error.
+  /// @return        Candidates in the place's frame, best first. Empty if no triple passed the geometric checks: a normal outcome, not an
+  /// error.
   /// @pre prepare() was called last with the same query.
-  std::vector<PoseCandidate> estimate(const Context& context, const PoseQuery& query, const ForestView& forest);
+  std::vector<PoseCandidate> estimate(const Context& context, const PoseQuery& query, const PlaceView& place, const ForestView& forest);
 
   /// What the last call of estimate() left behind.
   const PoseBuffers& buffers() const { return buffers_; }
 
  private:
-  void make_room_for(const PoseQuery& query, const ForestView& forest);
+  void make_room_for(const PlaceView& place, const ForestView& forest);
 
   SearchPlan plan_;
   PoseBuffers buffers_;

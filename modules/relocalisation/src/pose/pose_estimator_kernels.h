@@ -28,11 +28,8 @@ namespace foothold {
 template <class Executor>
 struct PoseAlgorithms {
   static void prepare(const Context& context, const PoseQuery& query, const SearchPlan& plan, PoseBuffers& buffers);
-  /// @param num_drawn  Output: the hypotheses that were drawn, among few.
-  static void screen(const Context& context, const PoseQuery& query, const ForestView& forest, const SearchPlan& plan, PoseBuffers& buffers,
-                     std::uint32_t* num_drawn);
-  static void estimate(const Context& context, const PoseQuery& query, const ForestView& forest, const SearchPlan& plan,
-                       PoseBuffers& buffers);
+  static void estimate(const Context& context, const PoseQuery& query, const PlaceView& place, const ForestView& forest,
+                       const SearchPlan& plan, PoseBuffers& buffers);
 
  private:
   static void preempt(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers);
@@ -42,35 +39,20 @@ template <class Executor>
 void PoseAlgorithms<Executor>::prepare(const Context& context, const PoseQuery& query, const SearchPlan& plan, PoseBuffers& buffers) {
   const Executor executor(context);
   sample_pool(executor, query, plan.seed, buffers.pool);
-  draw_remembered_points(executor, query, plan.seed, buffers.ranking);
   if (plan.confronts_scene) estimate_surfaces(executor, query, buffers.pool, buffers.alignment);
 }
 
 template <class Executor>
-void PoseAlgorithms<Executor>::screen(const Context& context, const PoseQuery& query, const ForestView& forest, const SearchPlan& plan,
-                                      PoseBuffers& buffers, std::uint32_t* num_drawn) {
-  constexpr int kPixels = 500;      // (T) docs/results.md
-  constexpr int kHypotheses = 256;  // (T) docs/results.md
-  SearchPlan few = plan;
-  few.pool_size = std::min(kPixels, plan.pool_size);
-  few.num_hypotheses = std::min(kHypotheses, plan.num_hypotheses);
-  const Executor executor(context);
-  fill_pool<Executor>(context, query, forest, few.pool_size, buffers.pool);
-  draw_hypotheses(executor, buffers.pool.view(few.pool_size), few, buffers.hypotheses);
-  executor.for_each_team(1, CountDrawn<Executor>{buffers.hypotheses.energies.data(), few.num_hypotheses, num_drawn});
-}
-
-template <class Executor>
-void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery& query, const ForestView& forest, const SearchPlan& plan,
-                                        PoseBuffers& buffers) {
+void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery& query, const PlaceView& place, const ForestView& forest,
+                                        const SearchPlan& plan, PoseBuffers& buffers) {
   constexpr int kFinalRounds = 2;  // modes are assigned anew before each
   const Executor executor(context);
-  const CorrespondencePoolView pool = buffers.pool.view(plan.pool_size);
+  const CorrespondencePoolView pool = buffers.pool.view();
   Hypotheses& hypotheses = buffers.hypotheses;
   const std::size_t num_candidates = buffers.candidates.size();
   {
     const ScopedStage stage(context, "relocalise/correspondences");
-    fill_pool<Executor>(context, query, forest, plan.pool_size, buffers.pool);
+    fill_pool<Executor>(context, query, place.leaf_modes, forest, buffers.pool);
   }
   {
     const ScopedStage stage(context, "relocalise/hypotheses");
@@ -82,13 +64,14 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
   }
   if (plan.confronts_scene) {
     const ScopedStage stage(context, "relocalise/rank");
+    draw_remembered_points(executor, place.reservoirs, plan.seed, buffers.ranking);
     rank(executor, query, num_candidates, hypotheses, buffers.ranking);
   }
   const ScopedStage stage(context, "relocalise/refine");
   const Refinement final_refinement{plan.pool_size, plan.final_iterations};
   for (int round = 0; round < kFinalRounds; ++round) refine(executor, pool, final_refinement, 1, hypotheses, buffers.assignments);
   if (plan.confronts_scene) {
-    Aligner<Executor>(context, query, forest).run(buffers.pool, buffers.ranking, hypotheses, buffers.alignment);
+    Aligner<Executor>(context, query, place.reservoirs, forest).run(buffers.pool, buffers.ranking, hypotheses, buffers.alignment);
     judge(executor, query, 1, hypotheses, buffers.ranking);  // once more, where it is now
   }
   executor.for_each_team(num_groups<Executor>(num_candidates),
@@ -100,7 +83,7 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
 /// Culls, then pre-emptive RANSAC. Those that lose keep their places behind those that win.
 template <class Executor>
 void PoseAlgorithms<Executor>::preempt(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers) {
-  const CorrespondencePoolView pool = buffers.pool.view(plan.pool_size);
+  const CorrespondencePoolView pool = buffers.pool.view();
   Hypotheses& hypotheses = buffers.hypotheses;
   std::size_t num_active = hypotheses.poses.size();
   const auto score_and_sort = [&](const ScoredSamples& samples) {

@@ -10,15 +10,19 @@
 
 namespace foothold {
 
-/// A frame whose camera is to be found, and the scene to find it in.
+/// A frame whose camera is to be found.
 struct PoseQuery {
   const Frame& frame;
   const FeatureImage& image;
-  LeafReservoirsView reservoirs;
-  LeafModesView leaf_modes;
 
   /// The depth camera as if its images were averaged as the feature image is.
   Intrinsics averaged_intrinsics() const { return frame.calibration.depth.scaled(1.0F / static_cast<float>(image.downscale())); }
+};
+
+/// What is remembered of the place to find it in. Poses and points of an estimate are in the place's frame.
+struct PlaceView {
+  LeafReservoirsView reservoirs;
+  LeafModesView leaf_modes;
 };
 
 }  // namespace foothold

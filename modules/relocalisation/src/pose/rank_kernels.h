@@ -119,9 +119,9 @@ struct MakeEvidenceKey {
 
 /// Draws the points that candidates are judged by and aligned with.
 template <class Executor>
-void draw_remembered_points(const Executor& executor, const PoseQuery& query, std::uint64_t seed, Ranking& ranking) {
+void draw_remembered_points(const Executor& executor, const LeafReservoirsView& reservoirs, std::uint64_t seed, Ranking& ranking) {
   constexpr std::uint64_t kStream = ~std::uint64_t{1};
-  executor.for_each(ranking.points.size(), DrawRememberedPoint{query.reservoirs, derive_seed(seed, kStream), ranking.points.data()});
+  executor.for_each(ranking.points.size(), DrawRememberedPoint{reservoirs, derive_seed(seed, kStream), ranking.points.data()});
 }
 
 /// Confronts the hypotheses in the first slots with the first kRankingPoints points.

@@ -16,7 +16,7 @@ extern template struct ReservoirAlgorithms<CudaExecutor>;
 #endif
 
 namespace {
-enum Stream : std::uint64_t { kSamplingStream, kReplacementStream };
+constexpr std::uint64_t kReplacementStream = 1;
 }  // namespace
 
 LeafReservoirs::LeafReservoirs(const Context& context, int num_leaves, const ReservoirSettings& settings, std::uint64_t seed)
@@ -34,8 +34,6 @@ LeafReservoirs::LeafReservoirs(const Context& context, int num_leaves, const Res
 }
 
 void LeafReservoirs::clear() {
-  num_frames_ = 0;
-  origin_world_.setZero();
   blocks_.clear();
   num_seen_.clear_to_zero();
   num_changed_.clear_to_zero();
@@ -46,30 +44,6 @@ LeafReservoirsView LeafReservoirs::view() {
 }
 
 std::size_t LeafReservoirs::state_bytes() const { return blocks_.state_bytes() + num_seen_.num_bytes() + num_changed_.num_bytes(); }
-
-void LeafReservoirs::sample(const Context& context, const Frame& frame, const FeatureImage& image, const SE3& world_from_camera,
-                            TrainingExamples& examples) {
-  if (num_frames_ == 0) origin_world_ = world_from_camera.translation;
-  const int spacing = scaled_to_width(settings_.grid_spacing_px, frame.depth.width);
-  const int grid_width = (frame.depth.width + spacing - 1) / spacing;
-  const int grid_height = (frame.depth.height + spacing - 1) / spacing;
-  const std::size_t num_cells = static_cast<std::size_t>(grid_width) * static_cast<std::size_t>(grid_height);
-  examples.pixels.resize(num_cells);
-  examples.points.resize(num_cells);
-  const SE3 scene_from_camera{world_from_camera.rotation, world_from_camera.translation - origin_world_};
-  const SampleTrainingPixel body{frame,
-                                 image.view(),
-                                 image.downscale(),
-                                 scene_from_camera,
-                                 grid_width,
-                                 spacing,
-                                 settings_.jitter,
-                                 derive_seed(derive_seed(seed_, kSamplingStream), num_frames_),
-                                 examples.pixels.data(),
-                                 examples.points.data()};
-  dispatch(context, [&](auto on) { ReservoirAlgorithms<typename decltype(on)::Executor>::sample(context, body, num_cells); });
-  ++num_frames_;
-}
 
 void LeafReservoirs::insert(const Context& context, const TrainingExamples& examples) {
   const std::size_t num_keys = examples.leaves.size();
@@ -83,10 +57,6 @@ void LeafReservoirs::insert(const Context& context, const TrainingExamples& exam
 }
 
 void LeafReservoirs::save(std::ostream& stream) const {
-  write_value(stream, num_frames_);
-  write_value(stream, origin_world_.x());
-  write_value(stream, origin_world_.y());
-  write_value(stream, origin_world_.z());
   write_array(stream, num_seen_.to_host());
   write_array(stream, num_changed_.to_host());
   write_array(stream, blocks_.blocks_to_host());
@@ -94,10 +64,6 @@ void LeafReservoirs::save(std::ostream& stream) const {
 }
 
 void LeafReservoirs::load(std::istream& stream) {
-  const auto num_frames = read_value<std::uint64_t>(stream, "frame count");
-  Eigen::Vector3f origin;
-  for (int i = 0; i < 3; ++i) origin[i] = read_value<float>(stream, "origin");
-  if (!origin.allFinite()) throw FileError("the saved scene has an origin that is not finite");
   const auto num_leaves = static_cast<std::uint64_t>(num_leaves_);
   const int max_blocks = reservoir_blocks_for(settings_.capacity);
   const std::uint64_t num_blocks = num_leaves * static_cast<std::uint64_t>(max_blocks);
@@ -124,8 +90,6 @@ void LeafReservoirs::load(std::istream& stream) {
     throw FileError("the saved scene has " + std::to_string(pool.size()) + " reservoir blocks, of which leaves own " +
                     std::to_string(num_owned));
   }
-  num_frames_ = num_frames;
-  origin_world_ = origin;
   num_seen_.assign(Span<const std::uint32_t>(num_seen));
   num_changed_.assign(Span<const std::uint32_t>(num_changed));
   blocks_.restore(Span<const ReservoirBlock>(pool), Span<const std::int32_t>(blocks));

@@ -3,28 +3,16 @@
 /// What leaves remember of a scene: reservoirs of world points with colour. Reference: [Cavallari2017] Sec. 2.2.2; [Vitter1985].
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <iosfwd>
 
-#include "features/leaf_lookup.h"
-#include "foothold/api/frame.h"
+#include "examples/training_examples.h"
 #include "foothold/base/array.h"
 #include "foothold/base/context.h"
 #include "foothold/relocalisation/settings.h"
 #include "reservoirs/block_lists.h"
 
 namespace foothold {
-
-/// A world point in millimetres from the scene's origin, with its colour in 5, 6 and 5 bits: 8 bytes.
-/// The origin is the first training camera's position; points beyond 32 m of it are not remembered.
-struct ReservoirPoint {
-  std::int16_t x_mm = 0;
-  std::int16_t y_mm = 0;
-  std::int16_t z_mm = 0;
-  std::uint16_t rgb565 = 0;
-};
-static_assert(sizeof(ReservoirPoint) == 8, "loaded as one word");
 
 inline constexpr int kReservoirBlockSize = 16;
 
@@ -67,30 +55,15 @@ struct LeafReservoirsView {
   }
 };
 
-/// The training examples of one frame: pixels with their points, in grid order.
-struct TrainingExamples {
-  explicit TrainingExamples(MemoryKind memory) : pixels(memory), points(memory), leaves(memory) {}
-  Array<SampledPixel> pixels;
-  Array<ReservoirPoint> points;
-  Array<std::uint32_t> leaves;  ///< num_trees x num_pixels
-};
-
 /// Reservoirs of all leaves.
 class LeafReservoirs {
  public:
   LeafReservoirs(const Context& context, int num_leaves, const ReservoirSettings& settings, std::uint64_t seed);
 
-  /// Picks this frame's training pixels and computes their world points (step 1).
-  void sample(const Context& context, const Frame& frame, const FeatureImage& image, const SE3& world_from_camera,
-              TrainingExamples& examples);
-
   /// Adds each example to the reservoirs of its leaves (step 2), in the order of the examples whatever the number of threads.
   void insert(const Context& context, const TrainingExamples& examples);
 
   LeafReservoirsView view();
-  /// Where the points' coordinates start [m, world].
-  const Eigen::Vector3f& origin_world() const { return origin_world_; }
-  std::uint64_t num_frames() const { return num_frames_; }
   std::size_t state_bytes() const;
   void clear();
 
@@ -101,8 +74,6 @@ class LeafReservoirs {
   ReservoirSettings settings_;
   std::uint64_t seed_;
   int num_leaves_;
-  std::uint64_t num_frames_ = 0;
-  Eigen::Vector3f origin_world_ = Eigen::Vector3f::Zero();
   BlockLists<ReservoirBlock, 1> blocks_;
   Array<std::uint32_t> num_seen_;
   Array<std::uint32_t> num_changed_;

@@ -25,15 +25,18 @@ struct FeatureSettings {
 
 /// What leaves remember. Reference: [Cavallari2017] Sec. 2.2.2, steps 1 and 2; [Vitter1985].
 struct ReservoirSettings {
-  int capacity = 112;       ///< (P) 1024, (T) 112
-  int grid_spacing_px = 8;  ///< (P) 4, (T) 8
-  bool jitter = true;       ///< (P) false, (T) true
+  int capacity = 112;          ///< (P) 1024, (T) 112
+  int grid_spacing_px = 8;     ///< (P) 4, (T) 8
+  bool jitter = true;          ///< (P) false, (T) true
+  int examples_per_view = 16;  ///< (P) 0, (T) 16, docs/experiments/places.md
 
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&ReservoirSettings::capacity, "capacity", "Points that a leaf remembers at most.", Range{16, 1024});
     v(&ReservoirSettings::grid_spacing_px, "grid_spacing_px",
       "Spacing of the pixels that a 640 px wide training frame contributes; less for narrower frames.", Range{1, 640});
+    v(&ReservoirSettings::examples_per_view, "examples_per_view",
+      "Examples learnt of a piece of surface, 10 cm wide, from one direction and distance; 0 for no limit.", Range{0, 255});
     v(&ReservoirSettings::jitter, "jitter", "Take a random pixel of each grid cell instead of its first.");
   }
 };
@@ -111,6 +114,7 @@ struct ForestRelocaliserSettings {
   float acceptance_threshold = 0.9F;  ///< (T) docs/results.md
   int num_rolls = 8;                  ///< (P) 1, (T) 8, docs/results.md
   float sure_confidence = 0.97F;      ///< (T) docs/results.md
+  float place_radius_m = 4.0F;        ///< (P) 16, as good as one place; (T) 4, docs/experiments/places.md
   std::uint64_t seed = 42;
 
   template <class Visitor>
@@ -124,6 +128,7 @@ struct ForestRelocaliserSettings {
     v(&S::num_rolls, "num_rolls",
       "Rolls of the camera about its optical axis, evenly spaced, that a relocalisation tries at most, upright first.", Range{1, 36});
     v(&S::sure_confidence, "sure_confidence", "Confidence from which no further roll is tried.", Range{0, 1});
+    v(&S::place_radius_m, "place_radius_m", "Distance from a place's first camera up to which cameras belong to it.", Range{0.5, 16});
     v(&S::seed, "seed", "Seed of every random choice.", Range{0, 1.8446744073709552e19});
   }
 

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "examples/learnt_views.h"
+
+#include <algorithm>
+
+#include "examples/examples_algorithms.h"
+#include "foothold/base/binary_stream.h"
+#include "foothold/base/exec/dispatch.h"
+
+namespace foothold {
+
+#ifdef FOOTHOLD_HAS_CUDA
+extern template struct ExampleAlgorithms<CudaExecutor>;
+#endif
+
+LearntViews::LearntViews(MemoryKind memory)
+    : slots_(memory),
+      keys_(memory),
+      sort_buffer_(memory),
+      kept_(memory),
+      counts_(memory),
+      new_entries_(memory),
+      kept_before_(memory),
+      new_before_(memory),
+      unfiltered_(memory) {}
+
+void LearntViews::make_room(const Context& context, std::size_t num_new) {
+  const std::size_t wanted = (num_entries_ + num_new) * 3 / 2;
+  if (wanted <= slots_.size()) return;
+  std::size_t num_slots = 1024;
+  while (num_slots < wanted) num_slots *= 2;
+  Array<std::uint64_t> larger(slots_.memory(), num_slots);
+  dispatch(context, [&](auto on) {
+    using Algorithms = ExampleAlgorithms<typename decltype(on)::Executor>;
+    Algorithms::clear(context, larger);
+    Algorithms::rehash(context, slots_, ViewTable{larger.data(), num_slots - 1});
+  });
+  context.synchronise();  // before the smaller table goes
+  slots_ = std::move(larger);
+}
+
+void LearntViews::keep_new(const Context& context, const Eigen::Vector3f& camera_scene, int examples_per_view, TrainingExamples& examples) {
+  const std::size_t num_examples = examples.pixels.size();
+  make_room(context, num_examples);
+  keys_.resize(num_examples);
+  kept_.resize(num_examples);
+  counts_.resize(num_examples);
+  new_entries_.resize(num_examples);
+  kept_before_.resize(num_examples + 1);
+  new_before_.resize(num_examples + 1);
+  unfiltered_.pixels.swap(examples.pixels);
+  unfiltered_.points.swap(examples.points);
+  examples.pixels.resize(num_examples);
+  examples.points.resize(num_examples);
+  const Eigen::Vector3f camera_mm = camera_scene * 1000.0F;
+  const ViewpointOf view_of{{camera_mm.x(), camera_mm.y(), camera_mm.z()}};
+  const KeepNewBuffers buffers{keys_, sort_buffer_, kept_, counts_, new_entries_, kept_before_, new_before_};
+  dispatch(context, [&](auto on) {
+    ExampleAlgorithms<typename decltype(on)::Executor>::keep_new(context, ViewTable{slots_.data(), slots_.size() - 1}, view_of,
+                                                                 static_cast<std::uint32_t>(examples_per_view), unfiltered_, examples,
+                                                                 buffers);
+  });
+  const std::uint32_t num_kept = kept_before_.read(context, num_examples);
+  num_entries_ += new_before_.read(context, num_examples);
+  examples.pixels.resize(num_kept);
+  examples.points.resize(num_kept);
+}
+
+void LearntViews::save(std::ostream& stream) const {
+  std::vector<std::uint64_t> entries = slots_.to_host();
+  entries.erase(std::remove(entries.begin(), entries.end(), kEmptySlot), entries.end());
+  std::sort(entries.begin(), entries.end());
+  write_array(stream, entries);
+}
+
+void LearntViews::load(const Context& context, std::istream& stream) {
+  constexpr std::uint64_t kMostEntries = std::uint64_t{1} << 32U;
+  const auto entries = read_array<std::uint64_t>(stream, "learnt views", 0, kMostEntries);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    if (entries[i] == kEmptySlot || (i > 0 && entries[i] >> kCountBits <= entries[i - 1] >> kCountBits))
+      throw FileError("the saved scene's learnt views are not in order");
+  }
+  LearntViews loaded(slots_.memory());
+  loaded.make_room(context, entries.size());
+  const Array<std::uint64_t> from(slots_.memory(), Span<const std::uint64_t>(entries));
+  dispatch(context, [&](auto on) {
+    ExampleAlgorithms<typename decltype(on)::Executor>::rehash(context, from, ViewTable{loaded.slots_.data(), loaded.slots_.size() - 1});
+  });
+  context.synchronise();
+  loaded.num_entries_ = entries.size();
+  *this = std::move(loaded);
+}
+
+}  // namespace foothold

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What a place knows already: how often each small piece of surface was learnt, and from where. Not in the paper, whose reservoirs forget
+/// by chance instead: here what adds nothing is never learnt, so that memory grows with what was seen and not with time.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <iosfwd>
+
+#include "examples/training_examples.h"
+#include "foothold/base/array.h"
+#include "foothold/base/context.h"
+
+namespace foothold {
+
+/// Counts examples by piece of surface (a cube of the scene) and viewpoint (direction and distance of the camera from it).
+///
+/// Determinism: what is kept depends on the frames and their order, never on threads or device.
+class LearntViews {
+ public:
+  explicit LearntViews(MemoryKind memory);
+
+  /// Keeps the examples that have depth and show what was not learnt often enough from there, in their order, and counts them.
+  /// @param camera_scene  position of the camera in the frame of the examples' points [m].
+  /// @param examples_per_view  how often is enough; 0 if it never is, and nothing is counted. [0, 255]
+  void keep_new(const Context& context, const Eigen::Vector3f& camera_scene, int examples_per_view, TrainingExamples& examples);
+
+  std::size_t state_bytes() const { return slots_.size() * sizeof(std::uint64_t); }
+
+  void save(std::ostream& stream) const;
+  /// @throws FileError if the table contradicts itself.
+  void load(const Context& context, std::istream& stream);
+
+ private:
+  void make_room(const Context& context, std::size_t num_new);
+
+  Array<std::uint64_t> slots_;     ///< a hash table, see learnt_views_kernels.h; a power of two, or empty
+  std::uint64_t num_entries_ = 0;  ///< slots in use
+  // Scratch of keep_new().
+  Array<std::uint64_t> keys_;
+  Array<std::uint64_t> sort_buffer_;
+  Array<std::uint32_t> kept_;
+  Array<std::uint32_t> counts_;
+  Array<std::uint32_t> new_entries_;
+  Array<std::uint32_t> kept_before_;
+  Array<std::uint32_t> new_before_;
+  TrainingExamples unfiltered_;
+};
+
+}  // namespace foothold

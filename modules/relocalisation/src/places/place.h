@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What is remembered of one place: where cameras have been that are near one another.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+
+#include "clustering/leaf_modes.h"
+#include "examples/learnt_views.h"
+#include "foothold/base/se3.h"
+#include "reservoirs/leaf_reservoirs.h"
+
+namespace foothold {
+
+/// A place has a frame of its own, turned as the world is, with its first camera at the origin: so its coordinates stay small wherever in
+/// the world it lies.
+struct Place {
+  Eigen::Vector3f origin_world;  ///< [m]
+  LearntViews learnt;
+  LeafReservoirs reservoirs;
+  LeafModes modes;
+  bool is_settled = true;  ///< all that was learnt is in the modes
+
+  std::size_t state_bytes() const { return learnt.state_bytes() + reservoirs.state_bytes() + modes.state_bytes(); }
+  SE3 place_from_camera(const SE3& world_from_camera) const {
+    return {world_from_camera.rotation, world_from_camera.translation - origin_world};
+  }
+  SE3 world_from_camera(const SE3& place_from_camera) const {
+    return {place_from_camera.rotation, place_from_camera.translation + origin_world};
+  }
+};
+
+}  // namespace foothold

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Finds the camera of a frame in a scene of many places.
+#pragma once
+
+#include <vector>
+
+#include "foothold/api/relocaliser.h"
+#include "foothold/relocalisation/explanation.h"
+#include "forest/device_forest.h"
+#include "places/place_votes.h"
+#include "places/scene_places.h"
+#include "pose/pose_estimator.h"
+
+namespace foothold {
+
+/// Estimates poses in the places that the frame's pixels vote for, the likeliest first, until one is sure; then for rolled cameras.
+///
+/// Places that explain the frame about as well exclude each other: their confidences then sum to at most 1, so that neither is believed.
+class PlaceSearch {
+ public:
+  PlaceSearch(const Context& context, const ForestRelocaliserSettings& settings);
+
+  /// @param explanation  Output: what the answer was made from; nullptr for none.
+  /// @return             Estimates, best first; empty if no place allows one.
+  std::vector<PoseEstimate> find(const Context& context, const PoseQuery& query, const DeviceForest& forest, ScenePlaces& places,
+                                 Explanation* explanation);
+
+ private:
+  float sure_confidence_;
+  std::size_t num_candidates_;
+  PlaceVotes votes_;
+  PoseEstimator estimator_;
+};
+
+}  // namespace foothold

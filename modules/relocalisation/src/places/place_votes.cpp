@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "places/place_votes.h"
+
+#include <algorithm>
+
+#include "foothold/base/exec/dispatch.h"
+#include "places/place_votes_kernels.h"
+
+namespace foothold {
+
+#ifdef FOOTHOLD_HAS_CUDA
+extern template struct VotingAlgorithms<CudaExecutor>;
+#endif
+
+namespace {
+constexpr std::uint32_t kNumVoters = 256;  ///< (T) docs/experiments/places.md
+}  // namespace
+
+PlaceVotes::PlaceVotes(const Context& context)
+    : voters_(context.memory(), kNumVoters), leaves_(context.memory()), places_(context.memory()), shares_(context.memory()) {}
+
+void PlaceVotes::prepare(const Context& context, const PoseQuery& query) {
+  const SamplePoolPixel body{query.frame.depth, 0.0F, 0.0F, kNumVoters, voters_.data()};
+  dispatch(context, [&](auto on) { VotingAlgorithms<typename decltype(on)::Executor>::sample(context, body, kNumVoters); });
+}
+
+std::vector<PlaceVote> PlaceVotes::count(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
+                                         const std::vector<ForestView>& forests, int first_roll) {
+  const ScopedStage stage(context, "relocalise/vote");
+  if (forests.empty() || places.empty()) return {};
+  const int num_trees = forests.front().num_trees;
+  const std::size_t num_pairs = kNumVoters * static_cast<std::size_t>(num_trees);
+  leaves_.resize(num_pairs * forests.size());
+  for (std::size_t i = 0; i < forests.size(); ++i) {
+    find_leaves(context, query.image, forests[i], Span<const SampledPixel>(voters_),
+                Span<std::uint32_t>(leaves_.data() + i * num_pairs, num_pairs));
+  }
+  places_.assign(context, Span<const LeafModesView>(places));
+  shares_.resize(forests.size() * places.size());
+  const CountVotes body{query.image.view(), query.image.downscale(), num_trees,      static_cast<std::uint32_t>(forests.front().num_leaves),
+                        kNumVoters,         voters_.data(),          leaves_.data(), places.size(),
+                        places_.data(),     shares_.data()};
+  dispatch(context, [&](auto on) { VotingAlgorithms<typename decltype(on)::Executor>::count(context, body, shares_.size()); });
+  const std::vector<float> shares = shares_.to_host(context);
+  std::vector<PlaceVote> votes(shares.size());
+  for (std::size_t i = 0; i < votes.size(); ++i)
+    votes[i] = {i % places.size(), first_roll + static_cast<int>(i / places.size()), shares[i]};
+  std::stable_sort(votes.begin(), votes.end(), [](const PlaceVote& a, const PlaceVote& b) { return a.share > b.share; });
+  return votes;
+}
+
+}  // namespace foothold

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The scene's memory, place by place: no room takes memory from another, and a hypothesis never mixes two rooms. Not in the paper, whose
+/// leaves share one memory among all that was ever seen.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <iosfwd>
+#include <vector>
+
+#include "foothold/base/context.h"
+#include "foothold/relocalisation/settings.h"
+#include "places/place.h"
+
+namespace foothold {
+
+/// All places of a scene.
+///
+/// Determinism: where places begin depends on the cameras learnt and their order alone.
+class ScenePlaces {
+ public:
+  ScenePlaces(const Context& context, int num_leaves, const ForestRelocaliserSettings& settings)
+      : context_(context), num_leaves_(num_leaves), settings_(settings) {}
+
+  /// The index of the place that learns from a camera: the nearest whose first camera is within reach, or a new one.
+  std::size_t learning(const Eigen::Vector3f& camera_world);
+
+  bool empty() const { return places_.empty(); }
+  std::size_t size() const { return places_.size(); }
+  Place& operator[](std::size_t i) { return places_[i]; }
+  std::size_t state_bytes() const;
+  void clear() { places_.clear(); }
+
+  void save(std::ostream& stream) const;
+  /// @throws FileError if the stream ends or contradicts itself.
+  void load(std::istream& stream);
+
+ private:
+  Place make_place(const Eigen::Vector3f& origin_world) const;
+
+  Context context_;
+  int num_leaves_;
+  ForestRelocaliserSettings settings_;
+  std::vector<Place> places_;
+};
+
+}  // namespace foothold
