@@ -16,6 +16,7 @@ using test::office;
 ForestRelocaliserSettings roomy_leaves() {
   ForestRelocaliserSettings settings = test::small_settings();
   settings.reservoirs.capacity = 256;
+  settings.reservoirs.examples_per_view = 0;
   return settings;
 }
 

@@ -215,7 +215,6 @@ TEST_CASE("LeafReservoirs: clear forgets everything") {
   REQUIRE(reservoirs.state_bytes() > empty);
   reservoirs.clear();
   REQUIRE(reservoirs.state_bytes() == empty);
-  REQUIRE(reservoirs.num_frames() == 0);
   require_same(reservoirs, fresh);
 }
 
@@ -256,17 +255,16 @@ TEST_CASE("LeafReservoirs: refuses damaged data and keeps what it had") {
   };
   for (std::size_t length = 0; length < good.size(); length += 1 + length / 50) require_refused(good.substr(0, length));
   require_refused(good.substr(0, good.size() - 1));
-  // frame count 8, origin 12, then arrays of 20 counts, 20 changes, 40 block references, and blocks, each after their number.
+  // Arrays of 20 counts, 20 changes, 40 block references, and blocks, each after their number.
   const auto with_value = [&](std::size_t offset, auto value) {
     std::string bytes = good;
     std::memcpy(&bytes[offset], &value, sizeof(value));
     return bytes;
   };
-  constexpr std::size_t kCounts = 20;
+  constexpr std::size_t kCounts = 0;
   constexpr std::size_t kChanges = kCounts + 8 + 80;
   constexpr std::size_t kBlocks = kChanges + 8 + 80;
   constexpr std::size_t kPool = kBlocks + 8 + 160;
-  require_refused(with_value(8, std::nanf("")));
   for (const std::size_t offset : {kCounts, kChanges, kBlocks, kPool}) {
     require_refused(with_value(offset, std::uint64_t{3}));
     require_refused(with_value(offset, ~std::uint64_t{0}));

@@ -29,6 +29,7 @@ const Values kTuned = {
     {"features.downscale", "4"},
     {"reservoirs.capacity", "112"},
     {"reservoirs.grid_spacing_px", "8"},
+    {"reservoirs.examples_per_view", "16"},
     {"reservoirs.jitter", "true"},
     {"clustering.min_cluster_size", "8"},
     {"clustering.max_modes", "10"},
@@ -43,15 +44,19 @@ const Values kTuned = {
     {"acceptance_threshold", "0.9"},
     {"num_rolls", "8"},
     {"sure_confidence", "0.97"},
+    {"place_radius_m", "4"},
     {"seed", "42"},
 };
 
 /// What the paper, or its authors' code, has instead.
 const Values kPaperDiffers = {
-    {"features.downscale", "1"},           {"reservoirs.capacity", "1024"},        {"reservoirs.grid_spacing_px", "4"},
-    {"reservoirs.jitter", "false"},        {"clustering.min_cluster_size", "20"},  {"clustering.covariance_floor_m", "0.02"},
-    {"clustering.touched_first", "false"}, {"clustering.leaves_per_frame", "256"}, {"clustering.point_budget", "0"},
-    {"pose.num_hypotheses", "1024"},       {"pose.as_published", "true"},          {"num_rolls", "1"},
+    {"features.downscale", "1"},           {"reservoirs.capacity", "1024"},
+    {"reservoirs.grid_spacing_px", "4"},   {"reservoirs.jitter", "false"},
+    {"clustering.min_cluster_size", "20"}, {"clustering.covariance_floor_m", "0.02"},
+    {"clustering.touched_first", "false"}, {"clustering.leaves_per_frame", "256"},
+    {"clustering.point_budget", "0"},      {"pose.num_hypotheses", "1024"},
+    {"pose.as_published", "true"},         {"num_rolls", "1"},
+    {"reservoirs.examples_per_view", "0"}, {"place_radius_m", "16"},
 };
 
 const Values kRandomForest = {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// What a frame teaches: LeafReservoirs::sample.
+/// What a frame teaches: sample_examples() and colour_examples().
+#include "examples/training_examples.h"
+
 #include "foothold/base/se3.h"
-#include "reservoirs/leaf_reservoirs.h"
 #include "support/catch.h"
 
 namespace foothold {
@@ -28,22 +29,21 @@ struct FlatFrame {
   Frame frame;
 };
 
-TEST_CASE("LeafReservoirs::sample: one pixel of each grid cell, with its world point") {
+TEST_CASE("sample_examples: one pixel of each grid cell, with its point in the place's frame, and its colour") {
   const Context context = Context(ContextOptions{});
   FlatFrame flat(2.0F);
   flat.depth(0, 0) = 0.0F;
-  SE3 world_from_camera = se3_exp((Tangent6() << 0.3F, -0.5F, 0.2F, 0.0F, 0.0F, 0.0F).finished());
-  world_from_camera.translation = {100.0F, -200.0F, 50.0F};  // far from the world's origin
+  SE3 place_from_camera = se3_exp((Tangent6() << 0.3F, -0.5F, 0.2F, 0.0F, 0.0F, 0.0F).finished());
+  place_from_camera.translation = {1.0F, -2.0F, 0.5F};
   FeatureImage image(context);
   image.compute(context, flat.frame, 4);
   for (const bool jitter : {false, true}) {
     ReservoirSettings settings = eight_pixel_grid();
     settings.jitter = jitter;
-    LeafReservoirs reservoirs(context, 10, settings, 42);
     TrainingExamples examples(MemoryKind::kHost);
-    reservoirs.sample(context, flat.frame, image, world_from_camera, examples);
+    sample_examples(context, flat.frame, settings, place_from_camera, 42, examples);
+    colour_examples(context, image, examples);
     REQUIRE(examples.pixels.size() == 8 * 6);
-    REQUIRE(reservoirs.origin_world() == world_from_camera.translation);
     int num_moved = 0;
     for (int i = 0; i < 48; ++i) {
       const SampledPixel& pixel = examples.pixels[static_cast<std::size_t>(i)];
@@ -56,7 +56,8 @@ TEST_CASE("LeafReservoirs::sample: one pixel of each grid cell, with its world p
       }
       REQUIRE(pixel.depth_m == 2.0F);
       const Eigen::Vector3d point_camera((pixel.u - 31.5) / 60.0 * 2.0, (pixel.v - 23.5) / 60.0 * 2.0, 2.0);
-      const Eigen::Vector3d expected_mm = world_from_camera.rotation.cast<double>() * point_camera * 1000.0;
+      const Eigen::Vector3d expected_mm =
+          (place_from_camera.rotation.cast<double>() * point_camera + place_from_camera.translation.cast<double>()) * 1000.0;
       const ReservoirPoint& point = examples.points[static_cast<std::size_t>(i)];
       constexpr double kRounding = 0.51;  // to millimetres, and a little for single precision
       REQUIRE((Eigen::Vector3d(point.x_mm, point.y_mm, point.z_mm) - expected_mm).cwiseAbs().maxCoeff() < kRounding);
@@ -66,27 +67,23 @@ TEST_CASE("LeafReservoirs::sample: one pixel of each grid cell, with its world p
   }
 }
 
-TEST_CASE("LeafReservoirs::sample: points further than 32 m from the origin are dropped") {
+TEST_CASE("sample_examples: points further than 32 m from the place's origin are dropped") {
   const Context context = Context(ContextOptions{});
-  LeafReservoirs reservoirs(context, 10, eight_pixel_grid(), 42);
   TrainingExamples examples(MemoryKind::kHost);
-  FeatureImage image(context);
   const auto num_with_depth = [&](float depth_m, float z_m) {
     const FlatFrame flat(depth_m);
-    SE3 world_from_camera;
-    world_from_camera.translation.z() = z_m;
-    image.compute(context, flat.frame, 4);
-    reservoirs.sample(context, flat.frame, image, world_from_camera, examples);
+    SE3 place_from_camera;
+    place_from_camera.translation.z() = z_m;
+    sample_examples(context, flat.frame, eight_pixel_grid(), place_from_camera, 42, examples);
     int count = 0;
     for (const SampledPixel& pixel : examples.pixels) count += pixel.depth_m > 0.0F ? 1 : 0;
     return count;
   };
-  REQUIRE(num_with_depth(2.0F, 5.0F) == 48);    // the origin is here
-  REQUIRE(num_with_depth(20.0F, 5.0F) == 48);   // 20 m from it
-  REQUIRE(num_with_depth(20.0F, 17.0F) == 48);  // 32 m
-  REQUIRE(num_with_depth(20.0F, 18.0F) == 0);   // 33 m
+  REQUIRE(num_with_depth(2.0F, 0.0F) == 48);
+  REQUIRE(num_with_depth(20.0F, 12.0F) == 48);  // 32 m
+  REQUIRE(num_with_depth(20.0F, 13.0F) == 0);   // 33 m
   REQUIRE(num_with_depth(20.0F, -60.0F) == 0);
-  REQUIRE(num_with_depth(1e3F, 5.0F) == 0);
+  REQUIRE(num_with_depth(1e3F, 0.0F) == 0);
 }
 
 }  // namespace

@@ -69,9 +69,10 @@ struct ForestRelocaliser::State {
 
   /// @param explanation  Output: what the answer was made from; nullptr for none.
   std::vector<PoseEstimate> answer(const Frame& frame, Explanation* explanation);
-  void learn(const Frame& frame, const SE3& world_from_camera);
-  /// Spends one frame's budget of clustering on the place that learnt last, if there is anything left to do.
-  void cluster();
+  /// @return True if the frame taught anything.
+  bool learn(const Frame& frame, const SE3& world_from_camera);
+  /// Spends one frame's budget of clustering on the place that learnt last. With nothing new, finds out whether anything was left to do.
+  void cluster(bool has_learnt);
 
   Context context;
   Forest forest;
@@ -95,18 +96,22 @@ std::vector<PoseEstimate> ForestRelocaliser::State::answer(const Frame& frame, E
   return search.find(context, {frame, image}, device_forest, places, explanation);
 }
 
-void ForestRelocaliser::State::learn(const Frame& frame, const SE3& world_from_camera) {
+bool ForestRelocaliser::State::learn(const Frame& frame, const SE3& world_from_camera) {
   learning_place = places.learning(world_from_camera.translation);
   Place& place = places[learning_place];
   {
     const ScopedStage stage(context, "train/sample");
     constexpr std::uint64_t kSamplingStream = 0;
-    const std::uint64_t frame_seed = derive_seed(derive_seed(settings.seed, kSamplingStream), num_frames++);
+    const std::uint64_t frame_seed = derive_seed(derive_seed(settings.seed, kSamplingStream), num_frames);
     const SE3 place_from_camera = place.place_from_camera(world_from_camera);
     sample_examples(context, frame, settings.reservoirs, place_from_camera, frame_seed, examples);
     place.learnt.keep_new(context, place_from_camera.translation, settings.reservoirs.examples_per_view, examples);
   }
-  if (examples.pixels.empty()) return;
+  if (examples.pixels.empty()) {
+    places.drop_unused(learning_place);
+    return false;
+  }
+  ++num_frames;
   {
     const ScopedStage stage(context, "train/features");
     image.compute(context, frame, scaled_to_width(settings.features.downscale, frame.depth.width));
@@ -116,13 +121,16 @@ void ForestRelocaliser::State::learn(const Frame& frame, const SE3& world_from_c
   }
   const ScopedStage stage(context, "train/insert");
   place.reservoirs.insert(context, examples);
+  place.is_used = true;
   place.is_settled = false;
+  return true;
 }
 
-void ForestRelocaliser::State::cluster() {
-  if (places.empty() || places[learning_place].is_settled) return;
+void ForestRelocaliser::State::cluster(bool has_learnt) {
+  if (learning_place >= places.size() || places[learning_place].is_settled) return;
   Place& place = places[learning_place];
-  place.is_settled = !place.modes.update(context, place.reservoirs);
+  place.modes.update(context, place.reservoirs);
+  place.is_settled = !has_learnt && place.modes.was_idle(context);
 }
 
 ForestRelocaliser::ForestRelocaliser(const Context& context, Forest forest, const ForestRelocaliserSettings& settings) {
@@ -156,14 +164,14 @@ void ForestRelocaliser::train(const Frame& frame, const SE3& world_from_camera) 
   expect_usable(s.context, frame);
   FOOTHOLD_EXPECTS(is_rigid(world_from_camera, kRigidTolerance));
   if (!has_blocks(frame, s.settings.features)) return;
-  s.learn(frame, world_from_camera);
+  const bool has_learnt = s.learn(frame, world_from_camera);
   const ScopedStage stage(s.context, "train/cluster");
-  s.cluster();
+  s.cluster(has_learnt);
 }
 
 void ForestRelocaliser::update() {
   const ScopedStage stage(state().context, "update/cluster");
-  state().cluster();
+  state().cluster(false);
 }
 
 std::vector<PoseEstimate> ForestRelocaliser::relocalise(const Frame& frame) { return state().answer(frame, nullptr); }

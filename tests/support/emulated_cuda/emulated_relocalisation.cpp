@@ -4,8 +4,10 @@
 #include "support/emulated_cuda/emulated_cuda_executor.h"
 
 #include "clustering/leaf_modes_kernels.h"
+#include "examples/examples_algorithms.h"
 #include "features/feature_image_kernels.h"
 #include "features/leaf_lookup_kernels.h"
+#include "places/place_votes_kernels.h"
 #include "pose/pose_estimator_kernels.h"
 #include "reservoirs/leaf_reservoirs_kernels.h"
 
@@ -13,8 +15,10 @@ namespace foothold {
 
 template struct FeatureImageAlgorithms<CudaExecutor>;
 template struct LeafLookupAlgorithms<CudaExecutor>;
+template struct ExampleAlgorithms<CudaExecutor>;
 template struct ReservoirAlgorithms<CudaExecutor>;
 template struct ClusteringAlgorithms<CudaExecutor>;
+template struct VotingAlgorithms<CudaExecutor>;
 template struct PoseAlgorithms<CudaExecutor>;
 
 }  // namespace foothold

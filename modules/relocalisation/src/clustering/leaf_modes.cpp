@@ -61,7 +61,7 @@ void LeafModes::clear() {
 
 std::size_t LeafModes::state_bytes() const { return modes_.state_bytes() + num_modes_.num_bytes() + num_owned_blocks_.num_bytes(); }
 
-bool LeafModes::update(const Context& context, LeafReservoirs& reservoirs) {
+void LeafModes::update(const Context& context, LeafReservoirs& reservoirs) {
   const ClusteringBuffers buffers{keys_,      sort_buffer_,   costs_,      cost_before_,    chosen_,
                                   new_modes_, num_new_modes_, new_blocks_, first_new_block_};
   dispatch(context, [&](auto on) {
@@ -69,7 +69,6 @@ bool LeafModes::update(const Context& context, LeafReservoirs& reservoirs) {
                                                                   scattering_stride(num_leaves_), buffers, modes_.num_used_blocks());
   });
   cursor_ = static_cast<std::uint32_t>((cursor_ + chosen_.size()) % static_cast<std::size_t>(num_leaves_));
-  return chosen_.read(context, 0) < static_cast<std::uint32_t>(num_leaves_);
 }
 
 void LeafModes::save(std::ostream& stream) const {

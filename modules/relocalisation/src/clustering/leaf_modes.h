@@ -39,8 +39,9 @@ class LeafModes {
   LeafModes(const Context& context, int num_leaves, const ClusteringSettings& settings);
 
   /// Renews the modes of the leaves whose turn it is: round robin as in the paper, or those whose reservoirs changed most.
-  /// @return False if no leaf had changed.
-  bool update(const Context& context, LeafReservoirs& reservoirs);
+  void update(const Context& context, LeafReservoirs& reservoirs);
+  /// True if the last update() found no leaf that had changed. Waits for the device.
+  bool was_idle(const Context& context) const { return chosen_.read(context, 0) >= static_cast<std::uint32_t>(num_leaves_); }
 
   LeafModesView view() { return {modes_.view(), num_modes_.data(), num_owned_blocks_.data()}; }
   std::size_t state_bytes() const;

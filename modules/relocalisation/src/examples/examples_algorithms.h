@@ -17,6 +17,7 @@ struct KeepNewBuffers {
   Array<std::uint32_t>& new_entries;
   Array<std::uint32_t>& kept_before;
   Array<std::uint32_t>& new_before;
+  Array<std::uint32_t>& totals;
 };
 
 template <class Executor>
@@ -65,6 +66,8 @@ void ExampleAlgorithms<Executor>::keep_new(const Context& context, const ViewTab
   executor.exclusive_scan(Span<const std::uint32_t>(buffers.new_entries), Span<std::uint32_t>(buffers.new_before));
   executor.for_each(num_examples, PackExamples{buffers.kept.data(), buffers.kept_before.data(), from.pixels.data(), from.points.data(),
                                                to.pixels.data(), to.points.data()});
+  executor.for_each(1,
+                    TakeTotals{buffers.kept_before.data() + num_examples, buffers.new_before.data() + num_examples, buffers.totals.data()});
 }
 
 }  // namespace foothold

@@ -14,6 +14,11 @@ namespace foothold {
 extern template struct ExampleAlgorithms<CudaExecutor>;
 #endif
 
+namespace {
+constexpr std::size_t kFewestSlots = 1024;
+constexpr std::uint64_t kMostSlots = std::uint64_t{1} << 30U;  ///< of a place, 8 GiB: what a file may ask for
+}  // namespace
+
 LearntViews::LearntViews(MemoryKind memory)
     : slots_(memory),
       keys_(memory),
@@ -23,21 +28,26 @@ LearntViews::LearntViews(MemoryKind memory)
       new_entries_(memory),
       kept_before_(memory),
       new_before_(memory),
+      totals_(memory, 2),
       unfiltered_(memory) {}
 
 void LearntViews::make_room(const Context& context, std::size_t num_new) {
   const std::size_t wanted = (num_entries_ + num_new) * 3 / 2;
   if (wanted <= slots_.size()) return;
-  std::size_t num_slots = 1024;
+  std::size_t num_slots = kFewestSlots;
   while (num_slots < wanted) num_slots *= 2;
-  Array<std::uint64_t> larger(slots_.memory(), num_slots);
+  set_num_slots(context, num_slots);
+}
+
+void LearntViews::set_num_slots(const Context& context, std::size_t num_slots) {
+  Array<std::uint64_t> slots(slots_.memory(), num_slots);
   dispatch(context, [&](auto on) {
     using Algorithms = ExampleAlgorithms<typename decltype(on)::Executor>;
-    Algorithms::clear(context, larger);
-    Algorithms::rehash(context, slots_, ViewTable{larger.data(), num_slots - 1});
+    Algorithms::clear(context, slots);
+    Algorithms::rehash(context, slots_, ViewTable{slots.data(), num_slots - 1});
   });
-  context.synchronise();  // before the smaller table goes
-  slots_ = std::move(larger);
+  context.synchronise();  // before the former table goes
+  slots_ = std::move(slots);
 }
 
 void LearntViews::keep_new(const Context& context, const Eigen::Vector3f& camera_scene, int examples_per_view, TrainingExamples& examples) {
@@ -55,37 +65,40 @@ void LearntViews::keep_new(const Context& context, const Eigen::Vector3f& camera
   examples.points.resize(num_examples);
   const Eigen::Vector3f camera_mm = camera_scene * 1000.0F;
   const ViewpointOf view_of{{camera_mm.x(), camera_mm.y(), camera_mm.z()}};
-  const KeepNewBuffers buffers{keys_, sort_buffer_, kept_, counts_, new_entries_, kept_before_, new_before_};
+  const KeepNewBuffers buffers{keys_, sort_buffer_, kept_, counts_, new_entries_, kept_before_, new_before_, totals_};
   dispatch(context, [&](auto on) {
     ExampleAlgorithms<typename decltype(on)::Executor>::keep_new(context, ViewTable{slots_.data(), slots_.size() - 1}, view_of,
                                                                  static_cast<std::uint32_t>(examples_per_view), unfiltered_, examples,
                                                                  buffers);
   });
-  const std::uint32_t num_kept = kept_before_.read(context, num_examples);
-  num_entries_ += new_before_.read(context, num_examples);
-  examples.pixels.resize(num_kept);
-  examples.points.resize(num_kept);
+  const std::vector<std::uint32_t> totals = totals_.to_host(context);
+  num_entries_ += totals[1];
+  examples.pixels.resize(totals[0]);
+  examples.points.resize(totals[0]);
 }
 
 void LearntViews::save(std::ostream& stream) const {
   std::vector<std::uint64_t> entries = slots_.to_host();
   entries.erase(std::remove(entries.begin(), entries.end(), kEmptySlot), entries.end());
   std::sort(entries.begin(), entries.end());
+  write_value(stream, static_cast<std::uint64_t>(slots_.size()));
   write_array(stream, entries);
 }
 
 void LearntViews::load(const Context& context, std::istream& stream) {
-  constexpr std::uint64_t kMostEntries = std::uint64_t{1} << 32U;
-  const auto entries = read_array<std::uint64_t>(stream, "learnt views", 0, kMostEntries);
+  const auto num_slots = read_value<std::uint64_t>(stream, "learnt views' table");
+  if (num_slots > kMostSlots || (num_slots & (num_slots - 1)) != 0)
+    throw FileError("the saved scene has " + std::to_string(num_slots) + " slots for learnt views, expected a power of two");
+  const auto entries = read_array<std::uint64_t>(stream, "learnt views", 0, num_slots * 2 / 3);
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (entries[i] == kEmptySlot || (i > 0 && entries[i] >> kCountBits <= entries[i - 1] >> kCountBits))
       throw FileError("the saved scene's learnt views are not in order");
   }
   LearntViews loaded(slots_.memory());
-  loaded.make_room(context, entries.size());
+  if (num_slots > 0) loaded.set_num_slots(context, num_slots);
   const Array<std::uint64_t> from(slots_.memory(), Span<const std::uint64_t>(entries));
   dispatch(context, [&](auto on) {
-    ExampleAlgorithms<typename decltype(on)::Executor>::rehash(context, from, ViewTable{loaded.slots_.data(), loaded.slots_.size() - 1});
+    ExampleAlgorithms<typename decltype(on)::Executor>::rehash(context, from, ViewTable{loaded.slots_.data(), num_slots - 1});
   });
   context.synchronise();
   loaded.num_entries_ = entries.size();

@@ -34,6 +34,7 @@ class LearntViews {
 
  private:
   void make_room(const Context& context, std::size_t num_new);
+  void set_num_slots(const Context& context, std::size_t num_slots);
 
   Array<std::uint64_t> slots_;     ///< a hash table, see learnt_views_kernels.h; a power of two, or empty
   std::uint64_t num_entries_ = 0;  ///< slots in use
@@ -45,6 +46,7 @@ class LearntViews {
   Array<std::uint32_t> new_entries_;
   Array<std::uint32_t> kept_before_;
   Array<std::uint32_t> new_before_;
+  Array<std::uint32_t> totals_;  ///< examples kept, entries new to the table
   TrainingExamples unfiltered_;
 };
 

@@ -155,6 +155,17 @@ struct PackExamples {
   }
 };
 
+/// Puts the totals of the two scans side by side, so that the host waits for them once.
+struct TakeTotals {
+  const std::uint32_t* num_kept;
+  const std::uint32_t* num_new;
+  std::uint32_t* totals;
+  FOOTHOLD_HD void operator()(std::size_t) const {
+    totals[0] = *num_kept;
+    totals[1] = *num_new;
+  }
+};
+
 /// Enters the slots of a smaller table into a larger one.
 struct Rehash {
   const std::uint64_t* from;

@@ -20,6 +20,7 @@ struct Place {
   LearntViews learnt;
   LeafReservoirs reservoirs;
   LeafModes modes;
+  bool is_used = false;    ///< something was learnt
   bool is_settled = true;  ///< all that was learnt is in the modes
 
   std::size_t state_bytes() const { return learnt.state_bytes() + reservoirs.state_bytes() + modes.state_bytes(); }

@@ -3,7 +3,7 @@
 #include "places/place_search.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 #include "pose/confidence.h"
 #include "pose/explain.h"
@@ -31,47 +31,43 @@ std::vector<PoseEstimate> estimates_of(const std::vector<PoseCandidate>& candida
   return estimates;
 }
 
-/// The answers of several attempts, as one.
-class Answer {
- public:
-  /// @return True if the estimates are better than all before.
-  bool add(std::vector<PoseEstimate> estimates) {
-    if (estimates.empty()) return false;
-    const bool is_best = attempts_.empty() || estimates.front().confidence > attempts_.front().front().confidence;
-    attempts_.insert(is_best ? attempts_.begin() : attempts_.end(), std::move(estimates));
-    return is_best;
-  }
-  float confidence() const { return attempts_.empty() ? 0.0F : attempts_.front().front().confidence; }
+/// What was found in one place.
+struct Attempt {
+  std::size_t place;
+  std::vector<PoseEstimate> estimates;  ///< best first; not empty
 
-  /// The best attempt's estimates with those of its rivals among them. Each attempt's confidence is the probability that it is right, were
-  /// it the only one; of poses that exclude each other, at most one is: p_i = o_i / (1 + sum o_j), with the odds o = c / (1 - c).
-  std::vector<PoseEstimate> combined(std::size_t num_candidates) {
-    if (attempts_.empty()) return {};
-    std::vector<PoseEstimate> estimates = std::move(attempts_.front());
-    const PoseEstimate best = estimates.front();
-    float sum_of_odds = odds(best.confidence);
-    std::vector<PoseEstimate> rivals;
-    for (std::size_t i = 1; i < attempts_.size(); ++i) {
-      const PoseEstimate& rival = attempts_[i].front();
-      if ((rival.world_from_camera.translation - best.world_from_camera.translation).norm() < kSamePlaceM) continue;
-      sum_of_odds += odds(rival.confidence);
-      rivals.push_back(rival);
-    }
-    const float scale = (1.0F + odds(best.confidence)) / (1.0F + sum_of_odds);
-    for (PoseEstimate& estimate : estimates) estimate.confidence *= scale;
-    for (PoseEstimate& rival : rivals) rival.confidence = odds(rival.confidence) / (1.0F + sum_of_odds);
-    estimates.insert(estimates.end(), rivals.begin(), rivals.end());
-    std::stable_sort(estimates.begin(), estimates.end(),
-                     [](const PoseEstimate& a, const PoseEstimate& b) { return a.confidence > b.confidence; });
-    if (estimates.size() > num_candidates) estimates.resize(num_candidates);
-    return estimates;
-  }
-
- private:
-  static float odds(float confidence) { return confidence / std::max(1.0F - confidence, 1e-6F); }
-
-  std::vector<std::vector<PoseEstimate>> attempts_;  ///< the best first
+  float confidence() const { return estimates.front().confidence; }
 };
+
+float odds_of(const Attempt& attempt) { return attempt.confidence() / std::max(1.0F - attempt.confidence(), 1e-6F); }
+
+/// The best attempt's estimates, and the best of its rivals: what was found in other places, elsewhere. A confidence is the probability
+/// that an attempt is right were it the only one; of places that exclude each other at most one is: p_i = o_i / (1 + sum o_j), with the
+/// odds o = c / (1 - c).
+std::vector<PoseEstimate> combine(std::vector<Attempt> attempts, std::size_t num_candidates) {
+  if (attempts.empty()) return {};
+  std::stable_sort(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) { return a.confidence() > b.confidence(); });
+  const Attempt& best = attempts.front();
+  std::vector<PoseEstimate> estimates = best.estimates;
+  const SE3& best_pose = best.estimates.front().world_from_camera;
+  std::vector<const Attempt*> rivals;
+  for (const Attempt& attempt : attempts) {
+    const float distance_m = (attempt.estimates.front().world_from_camera.translation - best_pose.translation).norm();
+    if (attempt.place != best.place && distance_m > kSamePlaceM) rivals.push_back(&attempt);
+  }
+  if (rivals.empty()) return estimates;
+  float sum_of_odds = odds_of(best);
+  for (const Attempt* rival : rivals) sum_of_odds += odds_of(*rival);
+  const float scale = odds_of(best) / (1.0F + sum_of_odds) / std::max(best.confidence(), 1e-6F);
+  for (PoseEstimate& estimate : estimates) estimate.confidence *= scale;
+  for (const Attempt* rival : rivals) {
+    estimates.push_back({rival->estimates.front().world_from_camera, odds_of(*rival) / (1.0F + sum_of_odds)});
+  }
+  std::stable_sort(estimates.begin(), estimates.end(),
+                   [](const PoseEstimate& a, const PoseEstimate& b) { return a.confidence > b.confidence; });
+  if (estimates.size() > num_candidates) estimates.resize(num_candidates);
+  return estimates;
+}
 
 }  // namespace
 
@@ -85,12 +81,18 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
                                             Explanation* explanation) {
   std::vector<LeafModesView> modes;
   for (std::size_t i = 0; i < places.size(); ++i) modes.push_back(places[i].modes.view());
-  Answer answer;
+  std::vector<Attempt> attempts;
+  float confidence = 0.0F;
   const auto attempt = [&](const PlaceVote& vote) {
     Place& place = places[vote.place];
     const PlaceView view{place.reservoirs.view(), place.modes.view()};
-    const std::vector<PoseEstimate> estimates = estimates_of(estimator_.estimate(context, query, view, forest.view(vote.roll)), place);
-    if (answer.add(estimates) && explanation != nullptr) *explanation = explain(estimator_, estimates, place.origin_world);
+    std::vector<PoseEstimate> estimates = estimates_of(estimator_.estimate(context, query, view, forest.view(vote.roll)), place);
+    if (estimates.empty()) return;
+    if (attempts.empty() || estimates.front().confidence > confidence) {
+      confidence = estimates.front().confidence;
+      if (explanation != nullptr) *explanation = explain(estimator_, estimates, place.origin_world);
+    }
+    attempts.push_back({vote.place, std::move(estimates)});
   };
 
   estimator_.prepare(context, query);
@@ -98,20 +100,20 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   const std::vector<PlaceVote> upright = votes_.count(context, query, modes, {forest.view()}, 0);
   for (std::size_t i = 0; i < upright.size() && i < kMostPlaces; ++i) {
     const bool is_rival = upright[i].share >= kRivalVotes * upright.front().share;
-    const bool is_likely = upright[i].share >= kFewestVotes && answer.confidence() < sure_confidence_;
+    const bool is_likely = upright[i].share >= kFewestVotes && confidence < sure_confidence_;
     if (i == 0 || is_rival || is_likely) attempt(upright[i]);
   }
 
   std::vector<ForestView> rolled;
   for (int roll = 1; roll < forest.num_rolls(); ++roll) rolled.push_back(forest.view(roll));
-  if (answer.confidence() < sure_confidence_) {
+  if (confidence < sure_confidence_) {
     const std::vector<PlaceVote> votes = votes_.count(context, query, modes, rolled, 1);
     for (std::size_t i = 0; i < votes.size() && i < kMostRolledViews; ++i) {
-      if (votes[i].share < kFewestVotes || answer.confidence() >= sure_confidence_) break;
+      if (votes[i].share < kFewestVotes || confidence >= sure_confidence_) break;
       attempt(votes[i]);
     }
   }
-  return answer.combined(num_candidates_);
+  return combine(std::move(attempts), num_candidates_);
 }
 
 }  // namespace foothold

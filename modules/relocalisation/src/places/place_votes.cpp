@@ -14,15 +14,17 @@ extern template struct VotingAlgorithms<CudaExecutor>;
 #endif
 
 namespace {
-constexpr std::uint32_t kNumVoters = 256;  ///< (T) docs/experiments/places.md
+constexpr std::uint32_t kMostVoters = 512;   ///< (T) docs/experiments/places.md
+constexpr std::uint32_t kFewestVoters = 96;  ///< (T)
+constexpr std::size_t kMostVotes = 32768;    ///< pairs of voter and view, beyond which fewer pixels vote
 }  // namespace
 
 PlaceVotes::PlaceVotes(const Context& context)
-    : voters_(context.memory(), kNumVoters), leaves_(context.memory()), places_(context.memory()), shares_(context.memory()) {}
+    : voters_(context.memory(), kMostVoters), leaves_(context.memory()), places_(context.memory()), shares_(context.memory()) {}
 
 void PlaceVotes::prepare(const Context& context, const PoseQuery& query) {
-  const SamplePoolPixel body{query.frame.depth, 0.0F, 0.0F, kNumVoters, voters_.data()};
-  dispatch(context, [&](auto on) { VotingAlgorithms<typename decltype(on)::Executor>::sample(context, body, kNumVoters); });
+  const SamplePoolPixel body{query.frame.depth, 0.0F, 0.0F, kMostVoters, voters_.data()};
+  dispatch(context, [&](auto on) { VotingAlgorithms<typename decltype(on)::Executor>::sample(context, body, kMostVoters); });
 }
 
 std::vector<PlaceVote> PlaceVotes::count(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
@@ -30,16 +32,17 @@ std::vector<PlaceVote> PlaceVotes::count(const Context& context, const PoseQuery
   const ScopedStage stage(context, "relocalise/vote");
   if (forests.empty() || places.empty()) return {};
   const int num_trees = forests.front().num_trees;
-  const std::size_t num_pairs = kNumVoters * static_cast<std::size_t>(num_trees);
+  const std::size_t num_voters = std::clamp<std::size_t>(kMostVotes / (places.size() * forests.size()), kFewestVoters, kMostVoters);
+  const std::size_t num_pairs = num_voters * static_cast<std::size_t>(num_trees);
   leaves_.resize(num_pairs * forests.size());
   for (std::size_t i = 0; i < forests.size(); ++i) {
-    find_leaves(context, query.image, forests[i], Span<const SampledPixel>(voters_),
+    find_leaves(context, query.image, forests[i], Span<const SampledPixel>(voters_.data(), num_voters),
                 Span<std::uint32_t>(leaves_.data() + i * num_pairs, num_pairs));
   }
   places_.assign(context, Span<const LeafModesView>(places));
   shares_.resize(forests.size() * places.size());
   const CountVotes body{query.image.view(), query.image.downscale(), num_trees,      static_cast<std::uint32_t>(forests.front().num_leaves),
-                        kNumVoters,         voters_.data(),          leaves_.data(), places.size(),
+                        num_voters,         voters_.data(),          leaves_.data(), places.size(),
                         places_.data(),     shares_.data()};
   dispatch(context, [&](auto on) { VotingAlgorithms<typename decltype(on)::Executor>::count(context, body, shares_.size()); });
   const std::vector<float> shares = shares_.to_host(context);

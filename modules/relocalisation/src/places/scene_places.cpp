@@ -28,6 +28,10 @@ std::size_t ScenePlaces::learning(const Eigen::Vector3f& camera_world) {
   return nearest;
 }
 
+void ScenePlaces::drop_unused(std::size_t place) {
+  if (!places_[place].is_used) places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(place));
+}
+
 std::size_t ScenePlaces::state_bytes() const {
   std::size_t sum = 0;
   for (const Place& place : places_) sum += place.state_bytes();
@@ -55,6 +59,7 @@ void ScenePlaces::load(std::istream& stream) {
     place.learnt.load(context_, stream);
     place.reservoirs.load(stream);
     place.modes.load(stream);
+    place.is_used = true;
     place.is_settled = false;
     places_.push_back(std::move(place));
   }

@@ -26,6 +26,9 @@ class ScenePlaces {
   /// The index of the place that learns from a camera: the nearest whose first camera is within reach, or a new one.
   std::size_t learning(const Eigen::Vector3f& camera_world);
 
+  /// Takes back a place that was made for a frame which taught nothing.
+  void drop_unused(std::size_t place);
+
   bool empty() const { return places_.empty(); }
   std::size_t size() const { return places_.size(); }
   Place& operator[](std::size_t i) { return places_[i]; }

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "examples/learnt_views.h"
+
+#include <map>
+#include <sstream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "foothold/base/error.h"
+#include "support/catch.h"
+#include "support/random_seed.h"
+
+namespace foothold {
+namespace {
+
+/// Examples at random points of a wall of 2 m x 2 m, 1 m in front of the origin; every tenth has no depth.
+TrainingExamples random_examples(Random& random, std::size_t count) {
+  TrainingExamples examples(MemoryKind::kHost);
+  examples.pixels.resize(count);
+  examples.points.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    examples.pixels[i] = {static_cast<std::int16_t>(i), 0, i % 10 == 9 ? 0.0F : 1.0F};
+    examples.points[i] = {static_cast<std::int16_t>(static_cast<int>(random.below(2000)) - 1000),
+                          static_cast<std::int16_t>(static_cast<int>(random.below(2000)) - 1000), 1000, 0};
+  }
+  return examples;
+}
+
+/// The piece of surface that a point lies on, by plain arithmetic.
+std::tuple<int, int, int> piece_of(const ReservoirPoint& p) {
+  const auto cell = [](int mm) { return (mm + 32768) / 100; };
+  return {cell(p.x_mm), cell(p.y_mm), cell(p.z_mm)};
+}
+
+TEST_CASE("LearntViews: of each piece of surface, as many examples are kept as are missing, in their order, and none without depth") {
+  Random random = test::test_random();
+  constexpr int kPerView = 4;
+  const Context context;
+  LearntViews views(MemoryKind::kHost);
+  std::map<std::tuple<int, int, int>, int> kept;
+  for (int frame = 0; frame < 20; ++frame) {
+    TrainingExamples examples = random_examples(random, 1000);
+    std::map<std::tuple<int, int, int>, int> offered;
+    for (std::size_t i = 0; i < 1000; ++i) offered[piece_of(examples.points[i])] += examples.pixels[i].depth_m > 0.0F ? 1 : 0;
+    const auto before = kept;
+    views.keep_new(context, Eigen::Vector3f::Zero(), kPerView, examples);
+    REQUIRE(examples.points.size() == examples.pixels.size());
+    for (std::size_t i = 0; i < examples.pixels.size(); ++i) {
+      REQUIRE(examples.pixels[i].depth_m > 0.0F);
+      if (i > 0) REQUIRE(examples.pixels[i].u > examples.pixels[i - 1].u);
+      ++kept[piece_of(examples.points[i])];
+    }
+    for (const auto& [piece, count] : offered) {
+      const int known = before.count(piece) != 0 ? before.at(piece) : 0;
+      REQUIRE((kept.count(piece) != 0 ? kept.at(piece) : 0) == std::min(known + count, kPerView));
+    }
+  }
+}
+
+TEST_CASE("LearntViews: who stays learns nothing more, and takes no more memory; from elsewhere there is something to learn") {
+  Random random = test::test_random();
+  const Context context;
+  LearntViews views(MemoryKind::kHost);
+  const auto num_kept = [&](const Eigen::Vector3f& camera) {
+    TrainingExamples examples = random_examples(random, 4000);
+    views.keep_new(context, camera, 8, examples);
+    return examples.pixels.size();
+  };
+  REQUIRE(num_kept({0.0F, 0.0F, 0.0F}) > 3000);
+  num_kept({0.0F, 0.0F, 0.0F});
+  const std::size_t bytes = views.state_bytes();
+  for (int i = 0; i < 20; ++i) REQUIRE(num_kept({0.0F, 0.0F, 0.0F}) < 100);
+  REQUIRE(views.state_bytes() == bytes);
+  REQUIRE(num_kept({2.0F, 0.0F, 0.0F}) > 1000);
+  REQUIRE(num_kept({0.0F, 0.0F, -4.0F}) > 1000);
+}
+
+TEST_CASE("LearntViews: without a limit, all that has depth is kept and nothing is remembered") {
+  Random random = test::test_random();
+  const Context context;
+  LearntViews views(MemoryKind::kHost);
+  for (int i = 0; i < 5; ++i) {
+    TrainingExamples examples = random_examples(random, 1000);
+    views.keep_new(context, Eigen::Vector3f::Zero(), 0, examples);
+    REQUIRE(examples.pixels.size() == 900);
+  }
+  std::stringstream stream;
+  views.save(stream);
+  REQUIRE(stream.str().size() == 2 * sizeof(std::uint64_t));  // the size of the table and the number of views in it, which is 0
+}
+
+TEST_CASE("LearntViews: what is saved and loaded keeps the same examples afterwards") {
+  Random random = test::test_random();
+  const Context context;
+  LearntViews views(MemoryKind::kHost);
+  TrainingExamples first = random_examples(random, 1000);
+  views.keep_new(context, Eigen::Vector3f::Zero(), 4, first);
+  std::stringstream stream;
+  views.save(stream);
+  LearntViews loaded(MemoryKind::kHost);
+  loaded.load(context, stream);
+  Random again = random;
+  TrainingExamples a = random_examples(random, 1000);
+  TrainingExamples b = random_examples(again, 1000);
+  views.keep_new(context, Eigen::Vector3f::Zero(), 4, a);
+  loaded.keep_new(context, Eigen::Vector3f::Zero(), 4, b);
+  REQUIRE(a.pixels.size() == b.pixels.size());
+  for (std::size_t i = 0; i < a.pixels.size(); ++i) REQUIRE(a.pixels[i].u == b.pixels[i].u);
+}
+
+TEST_CASE("LearntViews: a table that is not in order is refused") {
+  const Context context;
+  for (const std::vector<std::uint64_t>& entries : {std::vector<std::uint64_t>{512, 512}, {1024, 512}, {~std::uint64_t{0}}}) {
+    std::stringstream stream;
+    const std::uint64_t num_slots = 1024;
+    const std::uint64_t count = entries.size();
+    stream.write(reinterpret_cast<const char*>(&num_slots), sizeof(num_slots));
+    stream.write(reinterpret_cast<const char*>(&count), sizeof(count));
+    stream.write(reinterpret_cast<const char*>(entries.data()), static_cast<std::streamsize>(count * sizeof(std::uint64_t)));
+    LearntViews views(MemoryKind::kHost);
+    REQUIRE_THROWS_AS(views.load(context, stream), FileError);
+  }
+}
+
+}  // namespace
+}  // namespace foothold
