@@ -14,7 +14,8 @@ namespace {
 // (T) docs/experiments/places.md
 constexpr float kFewestVotes = 0.04F;        ///< share below which a place is hardly ever the right one
 constexpr float kRivalVotes = 0.7F;          ///< of the highest share, from which a place may be mistaken for the other
-constexpr std::size_t kMostPlaces = 3;       ///< upright attempts
+constexpr std::size_t kMostPlaces = 5;       ///< upright attempts
+constexpr std::size_t kMostRivals = 3;       ///< of these, attempts although the answer is sure
 constexpr std::size_t kMostRolledViews = 4;  ///< attempts of rolled cameras
 constexpr float kSamePlaceM = 0.5F;          ///< poses nearer than this do not exclude each other
 
@@ -99,7 +100,7 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   votes_.prepare(context, query);
   const std::vector<PlaceVote> upright = votes_.count(context, query, modes, {forest.view()}, 0);
   for (std::size_t i = 0; i < upright.size() && i < kMostPlaces; ++i) {
-    const bool is_rival = upright[i].share >= kRivalVotes * upright.front().share;
+    const bool is_rival = i < kMostRivals && upright[i].share >= kRivalVotes * upright.front().share;
     const bool is_likely = upright[i].share >= kFewestVotes && confidence < sure_confidence_;
     if (i == 0 || is_rival || is_likely) attempt(upright[i]);
   }

@@ -28,7 +28,7 @@ struct ReservoirSettings {
   int capacity = 112;          ///< (P) 1024, (T) 112
   int grid_spacing_px = 8;     ///< (P) 4, (T) 8
   bool jitter = true;          ///< (P) false, (T) true
-  int examples_per_view = 16;  ///< (P) 0, (T) 16, docs/experiments/places.md
+  int examples_per_view = 32;  ///< (P) 0, (T) 32, docs/experiments/places.md
 
   template <class Visitor>
   static void fields(Visitor& v) {
