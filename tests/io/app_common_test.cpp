@@ -43,9 +43,9 @@ struct Outcome {
 Outcome run(std::vector<std::string> arguments, const std::function<int()>& body) {
   Outcome outcome;
   outcome.messages = stderr_of([&] {
-    CLI::App app("An app.", "an_app");
+    CommandLine app("An app.", "an_app");
     std::string value;
-    app.add_option("--value", value)->required();
+    app.add_option("--value", value, "A value").required();
     arguments.insert(arguments.begin(), "an_app");
     std::vector<char*> argv;
     for (std::string& argument : arguments) argv.push_back(argument.data());
