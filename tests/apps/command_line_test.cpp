@@ -34,7 +34,7 @@ std::optional<int> parse(std::vector<const char*> arguments, Options& options) {
   return line.parse(static_cast<int>(arguments.size()), arguments.data());
 }
 
-TEST_CASE("CommandLine: options are read into their variables; others keep their defaults") {
+TEST_CASE("CommandLine: options are read into their variables, and others keep their defaults") {
   Options options;
   REQUIRE_FALSE(parse({"--count", "7", "--seed", "18446744073709551615", "--size", "0.25", "--fast", "--name", "b", "--name", "a",
                        "--numbers", "1,2,3"},

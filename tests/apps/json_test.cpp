@@ -34,7 +34,7 @@ TEST_CASE("Json: empty objects and arrays take one line") {
   CHECK(Json::array().dump() == "[]");
 }
 
-TEST_CASE("Json: numbers read back to the same value; what is no number is null") {
+TEST_CASE("Json: numbers read back to the same value, and what is no number is null") {
   CHECK(Json(1.0).dump() == "1.0");
   CHECK(Json(0.1).dump() == "0.1");
   CHECK(Json(0.1F).dump() == "0.10000000149011612");

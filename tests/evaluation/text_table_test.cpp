@@ -18,7 +18,7 @@ TEST_CASE("format_table: pads to Markdown, text to the left and numbers to the r
           "| longer name | 12.25 |\n");
 }
 
-TEST_CASE("format_table: without rows is a header; a short row breaks the contract") {
+TEST_CASE("format_table: without rows is a header, and a short row breaks the contract") {
   REQUIRE(format_table({"a", "b"}, {}) == "| a   |   b |\n|-----|----:|\n");
   REQUIRE_THROWS_AS(format_table({"a", "b"}, {{"1"}}), ContractViolation);
 }

@@ -90,7 +90,7 @@ TEST_CASE("absolute_trajectory_error: aligning never mirrors, even a planar traj
   REQUIRE(is_rigid(error.truth_from_estimate, 1e-5F));
 }
 
-TEST_CASE("absolute_trajectory_error: a single pose aligns exactly; none, or unequal numbers, break the contract") {
+TEST_CASE("absolute_trajectory_error: a single pose aligns exactly, and none, or unequal numbers, break the contract") {
   Random random = test::test_random();
   const std::vector<SE3> one = {random_pose(random, 1.0F)};
   REQUIRE(absolute_trajectory_error(one, std::vector<SE3>(1), TrajectoryAlignment::kRigid).rmse_m < kTolerance);

@@ -79,7 +79,7 @@ void unmap_from_column(SurfaceMap& map, int first) {
   }
 }
 
-TEST_CASE("IcpTracker: where the map ends, nothing is an outlier; the determinants tell how much was left to go by") {
+TEST_CASE("IcpTracker: where the map ends, nothing is an outlier, and the determinants tell how much was left to go by") {
   const Scene scene;
   const Context context = make_context(1);
   Model model(context, scene, 0.5F);

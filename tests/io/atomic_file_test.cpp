@@ -80,7 +80,7 @@ TEST_CASE("AtomicFile: a place that cannot be written to is named") {
   CHECK_THAT(error_of([&] { AtomicFile file(temp.path()); }), Contains(temp.path()) && Contains("it is a folder"));
 }
 
-TEST_CASE("AtomicFile: two writers of one file do not disturb each other; the last to commit wins") {
+TEST_CASE("AtomicFile: two writers of one file do not disturb each other, and the last to commit wins") {
   const TempFolder temp;
   AtomicFile first(temp / "a.txt");
   AtomicFile second(temp / "a.txt");

@@ -100,7 +100,7 @@ TEST_CASE("ReconstructionSession: in a loaded scene the camera is found in the f
   CHECK(translation_distance_m(*result.world_from_camera, true_pose(kitchen().back())) < kFound_m);
 }
 
-TEST_CASE("ReconstructionSession: without the relocaliser a camera carried away stays lost; with it, it is found") {
+TEST_CASE("ReconstructionSession: without the relocaliser a camera carried away stays lost, and with it, it is found") {
   SessionSettings settings = small_settings();
   settings.fusion.refiner.slide_reach_m = 0.0F;  // or the last pose tracked would get there by itself: the room is small
   ReconstructionSession session(two_threads(), settings, small_forest());

@@ -33,7 +33,7 @@ RgbdFrame large_frame(int i) {
 
 }  // namespace
 
-TEST_CASE("RecordingThread: what finds the queue full is dropped and counted; the rest is recorded in order, without poses") {
+TEST_CASE("RecordingThread: what finds the queue full is dropped and counted, and the rest is recorded in order, without poses") {
   const TempFolder temp;
   std::vector<int> accepted;
   constexpr int kNumFrames = 40;

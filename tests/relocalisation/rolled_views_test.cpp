@@ -48,7 +48,7 @@ int num_found(ForestRelocaliser relocaliser, const std::vector<RgbdFrame>& views
   return num;
 }
 
-TEST_CASE("rolled views: found whatever the roll, if rolls are tried; seldom otherwise") {
+TEST_CASE("rolled views: found whatever the roll, if rolls are tried, and seldom otherwise") {
   for (const int roll_deg : {60, 90, -110, 180}) {
     const std::vector<RgbdFrame> views = rolled_views(roll_deg);
     REQUIRE(views.size() == 10);

@@ -71,7 +71,7 @@ TEST_CASE("distance_to_surface: never larger than the distance to any point of t
   }
 }
 
-TEST_CASE("distance_to_surface: a room's is that of its nearest primitive; an empty room has none") {
+TEST_CASE("distance_to_surface: a room's is that of its nearest primitive, and an empty room has none") {
   const Room room = test::bare_room(
       {primitive(Shape::kSphere, {0.0F, 0.0F, 0.0F}, Vector3f::Ones()), primitive(Shape::kSphere, {5.0F, 0.0F, 0.0F}, Vector3f::Ones())});
   REQUIRE(distance_to_surface(room, {3.0F, 0.0F, 0.0F}) == Approx(1.0F).margin(kTolerance_m));

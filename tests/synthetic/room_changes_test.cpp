@@ -103,7 +103,7 @@ TEST_CASE("changed_room: what stands on a piece goes along with it") {
   }
 }
 
-TEST_CASE("changed_room: no change is the same room; seeds change other things; equal arguments give equal rooms") {
+TEST_CASE("changed_room: no change is the same room, and seeds change other things, and equal arguments give equal rooms") {
   const Room room = make_room("lounge");
   const Difference none = difference(room, changed_room(room, {}));
   REQUIRE(none.num_moved + none.num_removed + none.num_added == 0);

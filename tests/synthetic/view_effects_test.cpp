@@ -104,7 +104,7 @@ TEST_CASE("apply_effects: a person covers about the share asked for, and stands 
   }
 }
 
-TEST_CASE("apply_effects: equal seeds and indices give equal frames; values out of range are refused") {
+TEST_CASE("apply_effects: equal seeds and indices give equal frames, and values out of range are refused") {
   ViewEffects effects;
   effects.person = 0.2F;
   effects.holes = 0.2F;

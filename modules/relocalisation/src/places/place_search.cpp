@@ -12,12 +12,13 @@ namespace foothold {
 namespace {
 
 // (T) docs/experiments/places.md
-constexpr float kFewestVotes = 0.04F;        ///< share below which a place is hardly ever the right one
-constexpr float kRivalVotes = 0.7F;          ///< of the highest share, from which a place may be mistaken for the other
-constexpr std::size_t kMostPlaces = 5;       ///< upright attempts
-constexpr std::size_t kMostRivals = 3;       ///< of these, attempts although the answer is sure
-constexpr std::size_t kMostRolledViews = 4;  ///< attempts of rolled cameras
-constexpr float kSamePlaceM = 0.5F;          ///< poses nearer than this do not exclude each other
+constexpr float kFewestVotes = 0.04F;         ///< share below which a place is hardly ever the right one
+constexpr float kFewestRolledVotes = 0.015F;  ///< the same for a rolled camera
+constexpr float kRivalVotes = 0.7F;           ///< of the highest share, from which a place may be mistaken for the other
+constexpr std::size_t kMostPlaces = 5;        ///< upright attempts
+constexpr std::size_t kMostRivals = 3;        ///< of these, attempts although the answer is sure
+constexpr std::size_t kMostRolledViews = 2;   ///< attempts of rolled cameras
+constexpr float kSamePlaceM = 0.5F;           ///< poses nearer than this do not exclude each other
 
 /// The estimates of one attempt, in the world's frame.
 std::vector<PoseEstimate> estimates_of(const std::vector<PoseCandidate>& candidates, const Place& place) {
@@ -110,7 +111,7 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   if (confidence < sure_confidence_) {
     const std::vector<PlaceVote> votes = votes_.count(context, query, modes, rolled, 1);
     for (std::size_t i = 0; i < votes.size() && i < kMostRolledViews; ++i) {
-      if (votes[i].share < kFewestVotes || confidence >= sure_confidence_) break;
+      if (votes[i].share < kFewestRolledVotes || confidence >= sure_confidence_) break;
       attempt(votes[i]);
     }
   }
