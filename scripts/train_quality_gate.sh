@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The Foothold authors
-# Trains the classifiers that judge tracking and accept relocalised poses, on rendered rooms alone, and tests them on the seven rooms that are
+# Trains the classifiers that grade tracking and accept relocalised poses, on rendered rooms alone, and tests them on the seven rooms that are
 # kept aside. About a quarter of an hour on one processor core.
 #
 #   scripts/train_quality_gate.sh [FOLDER OF THE BUILD'S PROGRAMS] [FOLDER FOR THE RESULTS] [MORE OPTIONS OF train_quality_gate]

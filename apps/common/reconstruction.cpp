@@ -25,9 +25,9 @@ double Reconstruction::mapped_fraction(const Frame& frame_host, const SE3& world
   SurfaceMap rendering(context_.memory());
   const RenderCamera camera{frame.calibration.depth, frame.depth.width, frame.depth.height, world_from_camera};
   Raycaster(context_).render(pipeline_->volume(), camera.reduced(settings.render_divisor), rendering, true);
-  ViewCheck check(context_, settings.refiner.check);
-  check.set_frame(frame);
-  return static_cast<double>(check.compare(rendering, world_from_camera).overlap);
+  ViewComparer comparer(context_, settings.refiner.check);
+  comparer.set_frame(frame);
+  return static_cast<double>(comparer.compare(rendering, world_from_camera).overlap);
 }
 
 }  // namespace foothold::apps

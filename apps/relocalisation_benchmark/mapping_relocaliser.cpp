@@ -25,7 +25,7 @@ std::vector<PoseEstimate> MappingRelocaliser::relocalise(const Frame& frame) {
   if (estimates.empty()) return estimates;
   if (refinement_ == Refinement::kFirst) {
     const RefinedPose refined = refiner_.refine_one(frame, volume_, estimates.front().world_from_camera);
-    if (judge_tracking(refined.measures).quality != TrackingQuality::kFailed) {
+    if (grade_tracking(refined.measures).quality != TrackingQuality::kFailed) {
       estimates.front().world_from_camera = refined.world_from_camera;
     }
     return estimates;

@@ -102,7 +102,7 @@ class Replayer {
   void play_kidnapped(const KidnapPlan& plan, ReplayResult& result);
   KidnapRecord branch_off(const Reconstruction& reconstruction, const Kidnap& kidnap, const ReplayRun& so_far);
   std::optional<double> mapped_fraction(Reconstruction& reconstruction, const ReplayFrame& last, const RgbdFrame& first) const;
-  void judge(ReplayResult& result) const;
+  void judge_kidnaps(ReplayResult& result) const;
   Mesh mesh_from_true_poses() const;
   void compare_surfaces(ReplayResult& result) const;
 
@@ -233,7 +233,7 @@ void Replayer::play_kidnapped(const KidnapPlan& plan, ReplayResult& result) {
 }
 
 /// Compares with the undisturbed run's poses of the same frames.
-void Replayer::judge(ReplayResult& result) const {
+void Replayer::judge_kidnaps(ReplayResult& result) const {
   const auto outcome_of = [&](const std::vector<ReplayFrame>& frames) {
     std::vector<PlayedFrame> seen;
     std::vector<std::optional<SE3>> reference;
@@ -291,7 +291,7 @@ ReplayResult Replayer::run() {
   if (with_kidnaps && !options_.independent) plan = plan_sequential_kidnaps(num_frames(), options_.kidnaps);
   result.undisturbed = play_undisturbed(independent, result.kidnaps);
   if (!plan.steps.empty() && !stopped()) play_kidnapped(plan, result);
-  judge(result);
+  judge_kidnaps(result);
   result.peak_mb = apps::peak_memory_mb();  // before surfaces are compared, which is no part of reconstruction
   if (result.kidnapped.has_value() && !stopped()) compare_surfaces(result);
   result.complete = !stopped();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// train_quality_gate: trains the classifiers that judge tracking and accept relocalised poses, from recordings with known poses.
+/// train_quality_gate: trains the classifiers that grade tracking and accept relocalised poses, from recordings with known poses.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -293,7 +293,7 @@ int train(const Options& options) {
 int main(int argc, char** argv) {
   using namespace foothold;
   using namespace foothold::apps;
-  CommandLine app("Trains the classifiers that judge tracking and accept relocalised poses, and plots how well they tell right from wrong.",
+  CommandLine app("Trains the classifiers that grade tracking and accept relocalised poses, and plots how well they tell right from wrong.",
                   "train_quality_gate");
   Options options;
   app.add_option("--sequence", options.sequences,

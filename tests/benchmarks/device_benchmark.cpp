@@ -144,7 +144,7 @@ class Rig {
     timed("whole relocalisation", [&] { num_estimates_ += static_cast<long>(relocaliser_.relocalise(frame).size()); });
     timed("whole training frame", [&] { relocaliser_.train(frame, *recorded.world_from_camera); });
     if (num_frames_++ == 0) pipeline_.start_at(*recorded.world_from_camera);
-    timed("whole fused frame: track, judge, integrate, render", [&] { num_fused_ += pipeline_.process(frame).fused ? 1 : 0; });
+    timed("whole fused frame: track, grade, integrate, render", [&] { num_fused_ += pipeline_.process(frame).fused ? 1 : 0; });
   }
 
   const Context& context() const { return context_; }

@@ -24,6 +24,11 @@ ALLOWED = {
     "learning": BOTTOM + LAYER_2,
     "infinitam": BOTTOM,
 }
+# The rooms of a module's private sources, and what each may include besides itself. Sources beside the rooms compose them.
+ROOMS = {
+    "relocalisation": {"forest": [], "features": [], "reservoirs": ["features"], "clustering": ["reservoirs"], "pose": ["features", "reservoirs", "clustering"], "keyframe": []},
+    "fusion": {"tsdf": [], "raycast": ["tsdf"], "mesh": ["tsdf"], "icp": [], "view": [], "quality": [], "recovery": []},
+}
 # A program of its own that lives in a module's folder: the driver plug-in that plays sequences to OpenNI2.
 ALLOWED_BELOW = {"modules/openni/virtual_camera": ["io"]}
 
@@ -138,6 +143,14 @@ class Checker:
                 self.report(path, number, f"a public header includes a private one ({included})")
             elif not any(os.path.exists(os.path.join(self.repository, candidate)) for candidate in candidates):
                 self.report(path, number, f"{included} is not a private header of module {module}")
+            self.check_room(path, number, module, included)
+
+    def check_room(self, path, number, module, included):
+        rooms = ROOMS.get(module, {})
+        room = path.split("/")[3]  # modules/NAME/src/ROOM/FILE
+        other = included.split("/")[0]
+        if room in rooms and other in rooms and other != room and other not in rooms[room]:
+            self.report(path, number, f"{room} must not see {other} ({included})")
 
     def check_words(self, path, number, line):
         if path.startswith("modules/"):

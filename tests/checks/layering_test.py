@@ -59,6 +59,15 @@ class LayeringTest(unittest.TestCase):
         self.expect_violation("modules/fusion/include/foothold/fusion/a.h", '#pragma once\n#include "volume/b.h"\n', "private")
         self.expect_violation("modules/fusion/src/a.cpp", '#include "forest/b.h"\n', "not a private header")
 
+    def test_rooms_of_a_module_include_those_below_them(self):
+        header = {"modules/fusion/src/icp/b.h": HEADER + "#pragma once\n", "modules/fusion/src/tsdf/b.h": HEADER + "#pragma once\n"}
+        upward = {**header, "modules/fusion/src/tsdf/a.cpp": HEADER + '#include "icp/b.h"\n'}
+        found = self.violations(upward)
+        self.assertEqual(len(found), 1, found)
+        self.assertIn("tsdf must not see icp", found[0])
+        for path in ["modules/fusion/src/raycast/a.cpp", "modules/fusion/src/tsdf/a.cpp", "modules/fusion/src/a.cpp"]:
+            self.assertEqual(self.violations({**header, path: HEADER + '#include "tsdf/b.h"\n'}), [])
+
     def test_libraries_neither_end_the_process_nor_print(self):
         self.expect_violation("modules/base/src/a.cpp", "void f() { std::exit(1); }\n", "ends the process")
         self.expect_violation("modules/base/src/a.cpp", "void f() { abort(); }\n", "ends the process")

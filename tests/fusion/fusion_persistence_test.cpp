@@ -5,7 +5,7 @@
 #include <string>
 
 #include "foothold/fusion/fusion_pipeline.h"
-#include "scene.h"
+#include "fusion/scene.h"
 #include "support/catch.h"
 #include "support/random_seed.h"
 

@@ -8,8 +8,8 @@
 
 #include "foothold/base/error.h"
 #include "foothold/base/random.h"
-#include "room_recording.h"
-#include "scene.h"
+#include "fusion/room_recording.h"
+#include "fusion/scene.h"
 #include "support/catch.h"
 #include "support/comma_locale.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "scene.h"
+#include "fusion/scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,12 +11,12 @@
 #include "foothold/fusion/icp_tracker.h"
 #include "foothold/fusion/raycaster.h"
 #include "foothold/fusion/tsdf_volume.h"
-#include "foothold/fusion/view_check.h"
+#include "foothold/fusion/view_comparer.h"
 #include "fusion/scene.h"
 #include "gpu/device.h"
 #include "support/catch.h"
 #include "support/random_seed.h"
-#include "tsdf_view.h"
+#include "tsdf/tsdf_view.h"
 
 namespace foothold {
 namespace {
@@ -162,7 +162,7 @@ TEST_CASE("CUDA: the view check finds the CPU's agreement") {
     SurfaceMap view(context.memory());
     Raycaster(context).render(map, test::camera_of(frame).reduced(2), view, true);
     FrameUploader uploader(context);
-    ViewCheck check(context);
+    ViewComparer check(context);
     check.set_frame(uploader.upload(frame.view()));
     agreements.push_back(check.compare(view, *frame.world_from_camera));
   }
@@ -215,7 +215,7 @@ TEST_CASE("CUDA: candidates refined in one batch end where the CPU's end, with i
   }
 }
 
-TEST_CASE("CUDA: the pipeline tracks, judges and fuses as the CPU's does") {
+TEST_CASE("CUDA: the pipeline tracks, grades and fuses as the CPU's does") {
   FusionSettings settings;
   settings.volume = coarse();
   settings.render_divisor = 1;

@@ -28,7 +28,7 @@ FusionPipeline::FusionPipeline(const Context& context, const FusionSettings& set
       volume_(context, settings.volume),
       raycaster_(context),
       icp_(context, settings.icp),
-      check_(context, settings.refiner.check),
+      comparer_(context, settings.refiner.check),
       refiner_(context, settings.refiner),
       policy_(settings.recovery),
       rendering_(context.memory()),
@@ -129,20 +129,20 @@ void FusionPipeline::track(const Frame& frame, Sighting& sighting, FusionFrameRe
   guess_.assign(context_, Span<const SE3>(&world_from_camera_, 1));
   icp_.set_frame(frame);
   icp_.align_all(rendering_, guess_);
-  check_.set_frame(frame);
-  check_.compare_all(rendering_, icp_.world_from_cameras());
+  comparer_.set_frame(frame);
+  comparer_.compare_all(rendering_, icp_.world_from_cameras());
   HostReads reads;
   icp_.queue_results(reads);
-  check_.queue_results(reads);
+  comparer_.queue_results(reads);
   reads.wait(context_);
   const TrackingResult tracked = icp_.results().front();
-  const TrackingJudgement judgement = judge_tracking(tracked.measures);
-  result.quality = judgement.quality;
-  result.quality_score = judgement.score;
-  result.confidence = judgement.probability;
-  if (judgement.quality != TrackingQuality::kFailed) {
-    result.agreement = check_.results().front();
-    const RefinedPose view = refiner_.judge(tracked.measures, result.agreement);
+  const TrackingGrade grade = grade_tracking(tracked.measures);
+  result.quality = grade.quality;
+  result.quality_score = grade.score;
+  result.confidence = grade.probability;
+  if (grade.quality != TrackingQuality::kFailed) {
+    result.agreement = comparer_.results().front();
+    const RefinedPose view = refiner_.rate(tracked.measures, result.agreement);
     result.confidence = std::min(result.confidence, view.probability);
     if (!is_near(tracked.world_from_camera, world_from_camera_, settings_.max_motion_m, settings_.max_motion_deg) ||
         view.probability < settings_.min_view_probability) {
@@ -172,8 +172,8 @@ void FusionPipeline::relocalise(const Frame& frame, Sighting& sighting, FusionFr
   result.relocalise_ms = watch.elapsed_ms();
   if (refined.empty() || !refined.front().accepted) return;
   const RefinedPose& found = refined.front();
-  const TrackingJudgement judgement = judge_tracking(found.measures);
-  if (judgement.quality != TrackingQuality::kGood) return;
+  const TrackingGrade grade = grade_tracking(found.measures);
+  if (grade.quality != TrackingQuality::kGood) return;
   if (sighting.tracked != TrackingQuality::kFailed) {
     if (is_near(found.world_from_camera, sighting.tracked_world_from_camera, kSamePlaceM, kSamePlaceDeg)) {
       sighting.outcome = RelocalisationOutcome::kConfirms;
@@ -184,8 +184,8 @@ void FusionPipeline::relocalise(const Frame& frame, Sighting& sighting, FusionFr
   }
   sighting.outcome = RelocalisationOutcome::kElsewhere;
   sighting.found = found;
-  result.quality = judgement.quality;
-  result.quality_score = judgement.score;
+  result.quality = grade.quality;
+  result.quality_score = grade.score;
   result.confidence = found.probability;
   result.agreement = found.agreement;
 }

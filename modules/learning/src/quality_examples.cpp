@@ -97,7 +97,7 @@ class Collector {
         raycaster_(context),
         icp_(context, fusion.icp),
         mining_icp_(context, mining_icp(fusion.icp)),
-        check_(context, fusion.refiner.check),
+        comparer_(context, fusion.refiner.check),
         refiner_(context, fusion.refiner),
         map_(context.memory()) {}
 
@@ -139,9 +139,9 @@ class Collector {
   /// Whether a part of a frame is mapped, and a part is not.
   bool is_partly_mapped(const RgbdFrame& frame) {
     if (!has_map()) return false;
-    check_.set_frame(frame.view());
+    comparer_.set_frame(frame.view());
     render(frame, *frame.world_from_camera, fusion_.render_divisor);
-    const float overlap = check_.compare(map_, *frame.world_from_camera).overlap;
+    const float overlap = comparer_.compare(map_, *frame.world_from_camera).overlap;
     return overlap > settings_.least_partial_overlap && overlap < settings_.most_partial_overlap;
   }
 
@@ -159,7 +159,7 @@ class Collector {
   void begin(const RgbdFrame& frame) {
     icp_.set_frame(frame.view());
     mining_icp_.set_frame(frame.view());
-    check_.set_frame(frame.view());
+    comparer_.set_frame(frame.view());
   }
 
   const SE3& draw_mapped(Random& random) const { return mapped_[random.below(static_cast<std::uint32_t>(mapped_.size()))]; }
@@ -176,7 +176,7 @@ class Collector {
       const SE3 start = perturb(draw_mapped(random), kMinedKind, random);
       render(frame, start, kMinedDivisor);
       const TrackingResult aligned = mining_icp_.track(map_, start);
-      const ViewAgreement view = check_.compare(map_, aligned.world_from_camera);
+      const ViewAgreement view = comparer_.compare(map_, aligned.world_from_camera);
       found.emplace_back(-view.overlap * view.agreement, aligned.world_from_camera);
     }
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -189,11 +189,11 @@ class Collector {
   void try_tracking(const RgbdFrame& frame, const SE3& start, Verdict verdict) {
     render(frame, start, fusion_.render_divisor);
     const TrackingResult tracked = icp_.track(map_, start);
-    if (!tracked.measures.well_posed) return;  // judged without a classifier
+    if (!tracked.measures.well_posed) return;  // has failed without a classifier
     const std::array<float, 4> values = quality_features(tracked.measures);
     add(examples_.tracking, {values.begin(), values.end()}, tracked.world_from_camera, frame, verdict);
     // The pipeline also asks the acceptance classifier about tracked poses, in the rendering from the pose before.
-    const ViewAgreement agreement = check_.compare(map_, tracked.world_from_camera);
+    const ViewAgreement agreement = comparer_.compare(map_, tracked.world_from_camera);
     if (agreement.overlap < fusion_.refiner.min_overlap || agreement.colour_correlation == 0.0F) return;
     const std::array<float, kNumAcceptanceFeatures> view = acceptance_features(tracked.measures, agreement);
     add(examples_.acceptance, {view.begin(), view.end()}, tracked.world_from_camera, frame, verdict);
@@ -231,7 +231,7 @@ class Collector {
   Raycaster raycaster_;
   IcpTracker icp_;
   IcpTracker mining_icp_;
-  ViewCheck check_;
+  ViewComparer comparer_;
   PoseRefiner refiner_;
   SurfaceMap map_;
   std::vector<SE3> mapped_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// A linear classifier behind a kernel map, read from a text file: what judges tracking and relocalised poses.
+/// A linear classifier behind a kernel map, read from a text file: what grades tracking and rates relocalised poses.
 #pragma once
 
 #include <iosfwd>
@@ -59,7 +59,7 @@ ClassifierModel read_classifier(std::istream& stream, const std::string& file_na
 /// Writes a classifier that read_classifier() reads back exactly. @throws FileError
 void write_classifier(std::ostream& stream, const ClassifierModel& model);
 
-/// The gate that judges tracking, as shipped in data/tracking_quality.txt. Features as of quality_features().
+/// The gate that grades tracking, as shipped in data/tracking_quality.txt. Features as of quality_features().
 const ClassifierModel& default_tracking_classifier();
 /// The classifier that accepts relocalised poses, as shipped in data/pose_acceptance.txt. Features as of acceptance_features().
 const ClassifierModel& default_acceptance_classifier();

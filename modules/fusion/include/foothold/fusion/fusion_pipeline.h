@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// A whole reconstruction: tracks, judges, relocalises, refines, fuses and trains, frame by frame.
+/// A whole reconstruction: tracks, relocalises, refines, fuses and trains, frame by frame.
 #pragma once
 
 #include <algorithm>
@@ -133,7 +133,7 @@ class FusionPipeline : public Persistent {
   TsdfVolume volume_;
   Raycaster raycaster_;
   IcpTracker icp_;
-  ViewCheck check_;
+  ViewComparer comparer_;
   PoseRefiner refiner_;
   RecoveryPolicy policy_;
   SurfaceMap rendering_;

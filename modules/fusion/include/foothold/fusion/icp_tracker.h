@@ -64,7 +64,7 @@ struct IcpSettings {
   void validate() const;
 };
 
-/// What alignment says about itself; the tracking-quality gate judges by it. Reference: [Prisacariu2017] Sec. 4.
+/// What alignment says about itself; grade_tracking() goes by it. Reference: [Prisacariu2017] Sec. 4.
 struct TrackingMeasures {
   /// log det(H n / N_total): how well the pose is determined, over all pixels; meaningless unless well_posed. A small overlap shows here.
   float log_det_total = 0.0F;

@@ -11,7 +11,7 @@
 #include "foothold/base/settings.h"
 #include "foothold/fusion/classifier.h"
 #include "foothold/fusion/icp_tracker.h"
-#include "foothold/fusion/view_check.h"
+#include "foothold/fusion/view_comparer.h"
 
 namespace foothold {
 
@@ -25,7 +25,7 @@ struct PoseRefinerSettings {
   float same_pose_deg = 5.0F;
   /// First, candidates are aligned and ranked in images reduced by this divisor.
   int coarse_divisor = 8;
-  /// Finalists are aligned and judged in images reduced by this divisor.
+  /// Finalists are aligned and rated in images reduced by this divisor.
   int fine_divisor = 4;
   /// A second, different pose that is good enough, too, must leave at least this many times as much of the texture unexplained (1 less its
   /// correlation) as the best, or the place is ambiguous and neither is believed.
@@ -40,7 +40,7 @@ struct PoseRefinerSettings {
   float slide_step_m = 0.15F;
   float slide_reach_m = 1.2F;
   IcpSettings icp;
-  ViewCheckSettings check;
+  ViewComparerSettings check;
 
   template <class Visitor>
   static void fields(Visitor& v) {
@@ -52,7 +52,7 @@ struct PoseRefinerSettings {
     v(&PoseRefinerSettings::coarse_divisor, "coarse_divisor",
       "Reduction of the images in which all candidates are ranked (T: replay_sequence, kitchen).", Range{1, 32});
     v(&PoseRefinerSettings::fine_divisor, "fine_divisor",
-      "Reduction of the images in which finalists are judged (T: replay_sequence, kitchen).", Range{1, 32});
+      "Reduction of the images in which finalists are rated (T: replay_sequence, kitchen).", Range{1, 32});
     v(&PoseRefinerSettings::ambiguity_ratio, "ambiguity_ratio",
       "Lead in unexplained texture over the next different pose (T: relocalisation_benchmark, stairs).", Range{1.0, 100.0});
     v(&PoseRefinerSettings::min_overlap, "min_overlap", "Part of the frame that must fall on the map (T: train_quality_gate; R: 0.1).",
@@ -92,7 +92,7 @@ std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names();
 
 /// Refines proposed poses by ICP on the map, ranks them by rendering, and accepts only what can be believed.
 ///
-/// Every candidate is rendered coarsely, aligned and scored; the best few are rendered finely, aligned twice and judged: depth that agrees,
+/// Every candidate is rendered coarsely, aligned and scored; the best few are rendered finely, aligned twice and rated: depth that agrees,
 /// surfaces that the frame looks through, things in the map's free space, too little overlap, colour, residual and Hessian all count. So
 /// does the relocaliser's confidence, by Bayes' rule, in a pose that stayed as near to the proposal as the confidence speaks of.
 /// Those that looked hopeless coarsely are refined only if none of the others is good enough. If nothing is, the best is moved along the
@@ -115,7 +115,7 @@ class PoseRefiner {
   RefinedPose refine_one(const Frame& frame, const TsdfVolume& volume, const SE3& proposal);
 
   /// What the acceptance classifier says of a pose that someone else aligned and nobody proposed; all but the pose is filled in.
-  RefinedPose judge(const TrackingMeasures& measures, const ViewAgreement& agreement) const;
+  RefinedPose rate(const TrackingMeasures& measures, const ViewAgreement& agreement) const;
 
   /// Whether the view from a pose scores so low that right ones hardly ever do.
   bool is_hopeless(const RefinedPose& pose) const { return pose.score < classifier_.poor_threshold; }
@@ -132,13 +132,13 @@ class PoseRefiner {
   std::vector<RefinedPose> rank_coarsely(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals);
   std::vector<RefinedPose> refine_finalists(const Frame& frame, const TsdfVolume& volume, Span<const PoseEstimate> proposals,
                                             Span<const RefinedPose> ranked);
-  /// Aligns poses coarsely, or finely, and judges them: one result for each.
+  /// Aligns poses coarsely, or finely, and rates them: one result for each.
   std::vector<RefinedPose> align_coarsely(const Frame& frame, const TsdfVolume& volume, Span<const SE3> proposals);
   std::vector<RefinedPose> align_finely(const Frame& frame, const TsdfVolume& volume, Span<const SE3> proposals);
   /// Notes which proposal a pose came of, and adds the confidence in it to what the map says.
   void attribute(Span<const PoseEstimate> proposals, int candidate, RefinedPose& pose) const;
-  /// Judges what was aligned with the renderings in map_.
-  std::vector<RefinedPose> judge_rendered(IcpTracker& aligned);
+  /// Rates what was aligned with the renderings in map_.
+  std::vector<RefinedPose> rate_rendered(IcpTracker& aligned);
   bool is_same(const SE3& a, const SE3& b) const;
   bool is_good(const RefinedPose& pose) const;
   bool is_better(const RefinedPose& a, const RefinedPose& b) const;
@@ -150,7 +150,7 @@ class PoseRefiner {
   Raycaster raycaster_;
   IcpTracker coarse_icp_;
   IcpTracker fine_icp_;
-  ViewCheck check_;
+  ViewComparer comparer_;
   SurfaceMap map_;
   Array<SE3> proposals_;
 };

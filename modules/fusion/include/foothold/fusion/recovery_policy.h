@@ -17,7 +17,7 @@ enum class RecoveryState {
 /// The name of a state, for people.
 const char* to_string(RecoveryState state);
 
-/// What came of asking the relocaliser, refined by ICP on the map and judged by the gate.
+/// What came of asking the relocaliser, refined by ICP on the map and graded by the gate.
 enum class RelocalisationOutcome {
   kNotAsked,
   kNothing,   ///< no pose was accepted

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// Judges whether the tracker can be believed.
+/// Whether the tracker can be believed.
 #pragma once
 
 #include <array>
@@ -25,15 +25,15 @@ std::array<float, 4> quality_features(const TrackingMeasures& measures);
 /// The names of quality_features(), in order.
 std::array<const char*, 4> quality_feature_names();
 
-/// A judgement and what it rests on.
-struct TrackingJudgement {
+/// A quality and what it rests on.
+struct TrackingGrade {
   TrackingQuality quality = TrackingQuality::kFailed;
   float score = 0.0F;
   float probability = 0.0F;  ///< calibrated, of the pose being right
 };
 
-/// Judges by a support vector machine over the tracker's own measures; an ill-posed alignment has failed outright.
+/// Grades tracking by a support vector machine over the tracker's own measures; an ill-posed alignment has failed outright.
 /// Reference: [Prisacariu2017] Sec. 4.
-TrackingJudgement judge_tracking(const TrackingMeasures& measures, const ClassifierModel& classifier = default_tracking_classifier());
+TrackingGrade grade_tracking(const TrackingMeasures& measures, const ClassifierModel& classifier = default_tracking_classifier());
 
 }  // namespace foothold

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// Trains the classifiers that judge tracking and accept relocalised poses, and says how good they are.
+/// Trains the classifiers that grade tracking and accept relocalised poses, and says how good they are.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace foothold {
 
-/// One judged event.
+/// One event and what it was.
 struct ClassifierExample {
   std::vector<float> values;
   bool positive = false;

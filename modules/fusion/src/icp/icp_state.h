@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What IcpTracker shares with its kernels: the pyramid, the sums of a step, the progress of an alignment, buffers.
+#pragma once
+
+#include "foothold/fusion/icp_tracker.h"
+
+namespace foothold {
+
+inline constexpr int kMaxIcpLevels = 7;
+
+/// A level of the pyramid, by value for kernels.
+struct DepthLevel {
+  ImageView<const float> depth;
+  Intrinsics intrinsics;
+};
+
+/// What an alignment step sums over pixels: the upper triangle of H, J^T r, and then these.
+inline constexpr int kNumHessian = 21;
+inline constexpr int kCostSum = kNumHessian + 6;  ///< the robust cost, 1 for each valid pixel without a partner
+inline constexpr int kInlierSum = kCostSum + 1;   ///< pixels with a partner
+inline constexpr int kValidSum = kCostSum + 2;    ///< pixels with depth
+inline constexpr int kMappedSum = kCostSum + 3;   ///< pixels with depth that land on rendered surface
+inline constexpr int kNumSums = kCostSum + 4;
+
+/// The progress of an alignment; lives in the device's memory, so that no step waits for the host.
+struct IcpState {
+  SE3 world_from_model;
+  SE3 model_from_camera;  ///< the best so far
+  SE3 trial;              ///< what the next step evaluates
+  double sums[kNumSums];  ///< at model_from_camera
+  double cost;            ///< mean robust cost there
+  float damping;
+  int converged;  ///< nonzero: the level is done
+};
+
+static_assert(sizeof(IcpState) == 408, "copied from the device");
+
+struct IcpTracker::Scratch {
+  explicit Scratch(MemoryKind memory)
+      : guess(memory), states(memory), world_from_cameras(memory), chunk_sums(memory), row_counts(memory), row_offsets(memory) {}
+
+  DepthLevel levels[kMaxIcpLevels];
+  std::vector<Array<float>> depths_m;  ///< of levels 1, 2, ...
+  Array<SE3> guess;                    ///< of a single alignment
+  Array<IcpState> states;              ///< of each alignment
+  Array<SE3> world_from_cameras;       ///< where it ended
+  Array<float> chunk_sums;             ///< by alignment, then by chunk
+  Array<std::uint32_t> row_counts;     ///< pixels with depth, by row of the finest level
+  Array<std::uint32_t> row_offsets;
+  std::vector<IcpState> host_states;  ///< what queue_results() asked for
+  std::vector<SE3> host_world_from_cameras;
+};
+
+}  // namespace foothold

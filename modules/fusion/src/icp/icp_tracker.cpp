@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/fusion/icp_tracker.h"
+
+#include <Eigen/Eigenvalues>
+
+#include "foothold/base/error.h"
+#include "foothold/base/exec/dispatch.h"
+#include "icp/icp_tracker_kernels.h"
+
+namespace foothold {
+
+#ifdef FOOTHOLD_HAS_CUDA
+extern template struct IcpAlgorithms<CudaExecutor>;
+#endif
+
+void IcpSettings::validate() const {
+  validate_settings(*this);
+  if (finest_level > coarsest_level) {
+    throw InvalidSettings("setting finest_level: got " + std::to_string(finest_level) + ", expected at most coarsest_level, " +
+                          std::to_string(coarsest_level));
+  }
+  if (min_depth_m >= max_depth_m) {
+    throw InvalidSettings("setting min_depth_m: got " + detail::to_text(min_depth_m) + ", expected less than max_depth_m, " +
+                          detail::to_text(max_depth_m));
+  }
+}
+
+IcpTracker::IcpTracker(const Context& context, const IcpSettings& settings)
+    : context_(context), settings_(settings), scratch_(std::make_unique<Scratch>(context.memory())) {
+  settings.validate();
+}
+IcpTracker::~IcpTracker() = default;
+IcpTracker::IcpTracker(IcpTracker&&) noexcept = default;
+IcpTracker& IcpTracker::operator=(IcpTracker&&) noexcept = default;
+
+void IcpTracker::set_frame(const Frame& frame) {
+  FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
+  FOOTHOLD_EXPECTS(frame.depth.memory == context_.memory());
+  const ScopedStage stage(context_, "fusion/pyramid");
+  Scratch& scratch = *scratch_;
+  scratch.levels[0] = {frame.depth, frame.calibration.depth};
+  while (scratch.depths_m.size() < static_cast<std::size_t>(settings_.coarsest_level)) scratch.depths_m.emplace_back(context_.memory());
+  for (int l = 1; l <= settings_.coarsest_level; ++l) {
+    const DepthLevel& fine = scratch.levels[l - 1];
+    const int width = fine.depth.width / 2;
+    const int height = fine.depth.height / 2;
+    Array<float>& depths_m = scratch.depths_m[static_cast<std::size_t>(l - 1)];
+    depths_m.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    scratch.levels[l] = {{depths_m.data(), width, height, context_.memory()}, fine.intrinsics.scaled(0.5F)};
+  }
+  dispatch(context_, [&](auto on) { IcpAlgorithms<typename decltype(on)::Executor>::build_pyramid(context_, settings_, scratch); });
+}
+
+namespace {
+Eigen::Matrix<double, 6, 6> hessian_of(const IcpState& state) {
+  Eigen::Matrix<double, 6, 6> hessian;
+  int row = 0;
+  for (int a = 0; a < 6; ++a) {
+    for (int b = a; b < 6; ++b, ++row) {
+      hessian(a, b) = state.sums[row];
+      hessian(b, a) = state.sums[row];
+    }
+  }
+  return hessian;
+}
+
+/// log det(H / count), or nothing if H is not positive definite.
+bool log_determinant(const Eigen::Matrix<double, 6, 6>& hessian, double count, float& result) {
+  double matrix[6][6];
+  for (int a = 0; a < 6; ++a) {
+    for (int b = 0; b < 6; ++b) matrix[a][b] = hessian(a, b) / count;
+  }
+  if (!(count > 0.0) || !cholesky_factor(matrix, 6)) return false;
+  double sum = 0.0;
+  for (int a = 0; a < 6; ++a) sum += 2.0 * std::log(matrix[a][a]);
+  result = static_cast<float>(sum);
+  return true;
+}
+
+/// The unit translation, in the rendering's frame, whose cost grows least when rotation minimises it: the eigenvector of the smallest
+/// eigenvalue of H's Schur complement S = H_tt - H_rt^T H_rr^-1 H_rt.
+Eigen::Vector3f loosest_translation(const Eigen::Matrix<double, 6, 6>& hessian) {
+  const Eigen::Matrix3d coupling = hessian.topRightCorner<3, 3>();
+  const Eigen::Matrix3d rotation = hessian.topLeftCorner<3, 3>();
+  const Eigen::Matrix3d complement = hessian.bottomRightCorner<3, 3>() - coupling.transpose() * rotation.ldlt().solve(coupling);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(complement);  // eigenvalues rise
+  return solver.eigenvectors().col(0).cast<float>();
+}
+
+/// Alignments on less of a frame than this count as if it were that much: a patch that agrees with itself is no evidence. The same
+/// part under which poses are refused without asking, PoseRefinerSettings::min_overlap.
+constexpr double kLeastMappedPart = 0.2;
+
+/// @param num_total  Pixels at the finest level.
+TrackingResult summarise(const IcpState& state, const SE3& world_from_camera, double num_total, const IcpSettings& settings) {
+  TrackingResult result;
+  result.world_from_camera = world_from_camera;
+  const double num_inliers = state.sums[kInlierSum];
+  const double num_valid = state.sums[kValidSum];
+  const double num_mapped = state.sums[kMappedSum];
+  result.num_inliers = static_cast<int>(num_inliers);
+  result.num_valid = static_cast<int>(num_valid);
+  result.num_mapped = static_cast<int>(num_mapped);
+  TrackingMeasures& measures = result.measures;
+  const Eigen::Matrix<double, 6, 6> hessian = hessian_of(state);
+  measures.well_posed =
+      log_determinant(hessian, num_total, measures.log_det_total) && log_determinant(hessian, num_valid, measures.log_det_valid);
+  if (measures.well_posed) result.loosest_world = state.world_from_model.rotation * loosest_translation(hessian);
+  if (num_valid > 0.0) {
+    const double num_counted = std::max(num_mapped, kLeastMappedPart * num_valid);
+    measures.inlier_fraction = static_cast<float>(num_inliers / num_counted);
+    const double inliers_cost = state.sums[kCostSum] - (num_valid - num_inliers);
+    // Tukey's loss saturates at c^2 / 6 in units of a squared residual.
+    const double squared = (inliers_cost * settings.finest_outlier_m * settings.finest_outlier_m / 6.0 +
+                            (num_counted - num_inliers) * settings.coarsest_outlier_m * settings.coarsest_outlier_m) /
+                           num_counted;
+    measures.residual_m = static_cast<float>(std::sqrt(std::max(0.0, squared)));
+  }
+  return result;
+}
+}  // namespace
+
+bool IcpTracker::sees_depth() {
+  FOOTHOLD_EXPECTS(!scratch_->levels[0].depth.empty());
+  return dispatch(context_,
+                  [&](auto on) { return IcpAlgorithms<typename decltype(on)::Executor>::count_depth(context_, settings_, *scratch_); }) > 0;
+}
+
+TrackingResult IcpTracker::track(const SurfaceMap& model, const SE3& guess_world_from_camera) {
+  scratch_->guess.assign(context_, Span<const SE3>(&guess_world_from_camera, 1));
+  align_all(model, scratch_->guess);
+  HostReads reads;
+  queue_results(reads);
+  reads.wait(context_);
+  return results().front();
+}
+
+void IcpTracker::align_all(const SurfaceMap& models, const Array<SE3>& guesses_world_from_camera) {
+  FOOTHOLD_EXPECTS(!scratch_->levels[0].depth.empty() && !models.empty());
+  FOOTHOLD_EXPECTS(models.pixels.memory() == context_.memory() && guesses_world_from_camera.memory() == context_.memory());
+  FOOTHOLD_EXPECTS(guesses_world_from_camera.size() == models.num_renderings());
+  const ScopedStage stage(context_, "fusion/track");
+  dispatch(context_, [&](auto on) {
+    IcpAlgorithms<typename decltype(on)::Executor>::align(context_, settings_, models, guesses_world_from_camera.data(), *scratch_);
+  });
+}
+
+const Array<SE3>& IcpTracker::world_from_cameras() const { return scratch_->world_from_cameras; }
+
+void IcpTracker::queue_results(HostReads& reads) {
+  reads.add(scratch_->states, scratch_->host_states);
+  reads.add(scratch_->world_from_cameras, scratch_->host_world_from_cameras);
+}
+
+std::vector<TrackingResult> IcpTracker::results() const {
+  const auto num_total = static_cast<double>(scratch_->levels[settings_.finest_level].depth.size());
+  std::vector<TrackingResult> results;
+  for (std::size_t i = 0; i < scratch_->host_states.size(); ++i)
+    results.push_back(summarise(scratch_->host_states[i], scratch_->host_world_from_cameras[i], num_total, settings_));
+  return results;
+}
+
+}  // namespace foothold

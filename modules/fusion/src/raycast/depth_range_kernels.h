@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// The poses that a volume is rendered from, and between which depths the rays of each tile of the image may meet a surface.
+#pragma once
+
+#include <cstring>
+
+#include "foothold/base/camera.h"
+#include "foothold/base/se3.h"
+#include "tsdf/block_extent.h"
+#include "tsdf/device_atomics.h"
+#include "tsdf/tsdf_view.h"
+
+namespace foothold {
+
+/// Pixels that share a depth range; small, so that the range is tight.
+inline constexpr int kRangeTilePx = 4;
+FOOTHOLD_HD inline std::int32_t float_bits(float value) {
+  std::int32_t bits = 0;
+  memcpy(&bits, &value, sizeof(bits));
+  return bits;
+}
+FOOTHOLD_HD inline float float_of_bits(std::int32_t bits) {
+  float value = 0.0F;
+  memcpy(&value, &bits, sizeof(value));
+  return value;
+}
+
+/// The camera by value for kernels, its poses, and the tiles of each of its images.
+///
+/// Items are numbered through all images: those of the first pose, then those of the second, and so on.
+struct RayCamera {
+  Intrinsics intrinsics;
+  int width;
+  int height;
+  const SE3* world_from_cameras;
+  int num_tile_columns;  ///< of rendering
+  int num_tiles;
+  int num_range_columns;  ///< of depth ranges
+  int num_ranges;
+
+  FOOTHOLD_HD int num_pixels() const { return width * height; }
+};
+
+/// An item's image, and its number in that.
+struct ImageItem {
+  int image;
+  int index;
+
+  FOOTHOLD_HD ImageItem(std::size_t item, int num_per_image)
+      : image(static_cast<int>(static_cast<std::uint32_t>(item) / static_cast<std::uint32_t>(num_per_image))),
+        index(static_cast<int>(item) - image * num_per_image) {}
+};
+
+/// Takes the poses over into the map, and inverts them.
+struct PlaceCamera {
+  const SE3* from;
+  SE3* world_from_cameras;
+  SE3* cameras_from_world;
+
+  FOOTHOLD_HD void operator()(std::size_t image) const {
+    const SE3 pose = from[image];
+    world_from_cameras[image] = pose;
+    cameras_from_world[image] = pose.inverse();
+  }
+};
+
+struct ResetRanges {
+  std::int32_t* near;
+  std::int32_t* far;
+
+  FOOTHOLD_HD void operator()(std::size_t tile) const {
+    near[tile] = 0x7f7fffff;  // the largest float
+    far[tile] = 0;
+  }
+};
+
+/// Widens the depth range of every tile that a block with a surface may cover.
+struct ProjectBlockRange {
+  TsdfView volume;
+  RayCamera camera;
+  const SE3* cameras_from_world;
+  std::int32_t* near;
+  std::int32_t* far;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    const ImageItem item(i, volume.num_blocks);
+    const unsigned octants = volume.surface_octants[item.index];
+    if (octants == 0) return;
+    const BlockCoordinates block = unpack_key(volume.block_keys[item.index]);
+    const SE3 camera_from_world = cameras_from_world[item.image];
+    const float side_m = volume.voxel_size_m * static_cast<float>(kOctantSide);
+    for (int octant = 0; octant < 8; ++octant) {
+      if ((octants >> static_cast<unsigned>(octant) & 1U) == 0) continue;
+      const Eigen::Vector3f centre_world((static_cast<float>(2 * block.x + (octant & 1)) + 0.5F) * side_m,
+                                         (static_cast<float>(2 * block.y + (octant >> 1 & 1)) + 0.5F) * side_m,
+                                         (static_cast<float>(2 * block.z + (octant >> 2)) + 0.5F) * side_m);
+      widen(bound_projection(camera_from_world * centre_world, kHalfDiagonal * side_m, camera.intrinsics, camera.width, camera.height),
+            item.image * camera.num_ranges);
+    }
+  }
+
+  FOOTHOLD_HD void widen(const BlockExtent& extent, int first_range) const {
+    if (!extent.visible()) return;
+    for (int v = extent.v_min / kRangeTilePx; v <= extent.v_max / kRangeTilePx; ++v) {
+      for (int u = extent.u_min / kRangeTilePx; u <= extent.u_max / kRangeTilePx; ++u) {
+        const int tile = first_range + v * camera.num_range_columns + u;
+        atomic_lower(near + tile, float_bits(extent.z_near));
+        atomic_raise(far + tile, float_bits(extent.z_far));
+      }
+    }
+  }
+};
+
+}  // namespace foothold

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Averaging a frame into the blocks it sees.
+#pragma once
+
+#include <cfloat>
+
+#include "tsdf/allocation_kernels.h"
+#include "tsdf/block_extent.h"
+
+namespace foothold {
+
+inline constexpr int kDepthTilePx = 16;
+
+/// The largest usable depth [m] in each tile of 16 x 16 pixels; 0 without one.
+struct FindTileDepths {
+  PosedDepth camera;
+  int num_columns;
+  float* max_depths_m;
+
+  FOOTHOLD_HD void operator()(std::size_t tile) const {
+    const int u0 = static_cast<int>(tile) % num_columns * kDepthTilePx;
+    const int v0 = static_cast<int>(tile) / num_columns * kDepthTilePx;
+    const int u1 = u0 + kDepthTilePx < camera.depth.width ? u0 + kDepthTilePx : camera.depth.width;
+    const int v1 = v0 + kDepthTilePx < camera.depth.height ? v0 + kDepthTilePx : camera.depth.height;
+    float max_depth_m = 0.0F;
+    for (int v = v0; v < v1; ++v) {
+      for (int u = u0; u < u1; ++u) {
+        const float depth_m = camera.depth(u, v);
+        const float candidate_m = camera.usable(depth_m) ? depth_m : 0.0F;
+        max_depth_m = candidate_m > max_depth_m ? candidate_m : max_depth_m;
+      }
+    }
+    max_depths_m[tile] = max_depth_m;
+  }
+};
+
+/// Averages one frame into one block; blocks out of view or behind what the camera sees are left alone.
+///
+/// Distance is measured along the optical axis: depth at the voxel's pixel minus the voxel's own. `kWidth` consecutive voxels are processed
+/// side by side: a layer of a block on the host, whose loops the compiler vectorises, and one voxel per lane on the device.
+template <int kWidth>
+struct IntegrateBlock {
+  TsdfView volume;
+  PosedDepth camera;
+  SE3 camera_from_world;
+  ColourView colour;
+  Intrinsics colour_intrinsics;
+  SE3 colour_from_world;
+  const float* tile_depths_m;
+  int num_tile_columns;
+  int max_weight;
+  std::uint8_t* surface_octants;
+
+  template <class Team>
+  FOOTHOLD_HD void operator()(const Team& team, std::size_t index) const {
+    const BlockCoordinates coordinates = unpack_key(volume.block_keys[index]);
+    const float side_m = volume.voxel_size_m * static_cast<float>(kBlockSide);
+    const Eigen::Vector3f corner_world(static_cast<float>(coordinates.x) * side_m, static_cast<float>(coordinates.y) * side_m,
+                                       static_cast<float>(coordinates.z) * side_m);
+    if (!in_view(corner_world, side_m)) return;
+
+    VoxelBlock& block = volume.block(static_cast<int>(index));
+    const Eigen::Vector3f corner = camera_from_world * corner_world;
+    const Eigen::Matrix3f step = camera_from_world.rotation * volume.voxel_size_m;
+    int num_near_surface[8] = {};
+    for (int first = team.lane() * kWidth; first < kBlockVoxels; first += team.size() * kWidth) {
+      Voxels voxels;
+      observe(first, corner, step, voxels);
+      if (update(block, first, voxels)) colour_voxels(block, first, voxels, corner_world);
+      count_near_surface(first, voxels, num_near_surface);
+    }
+    team.sum_all(num_near_surface);
+    if (team.lane() != 0) return;
+    unsigned octants = 0;
+    for (int octant = 0; octant < 8; ++octant) octants |= (num_near_surface[octant] > 0 ? 1U : 0U) << static_cast<unsigned>(octant);
+    surface_octants[index] = static_cast<std::uint8_t>(octants);
+  }
+
+ private:
+  /// Voxels this near to the surface take part in its colour [voxels].
+  static constexpr float kColourBand = 1.8F;
+  /// Voxels this near to the surface may belong to a cell that it passes through [voxels]: the diagonal of a cell, and as much again for
+  /// noise.
+  static constexpr float kSurfaceBand = 3.0F;
+
+  struct Voxels {
+    float
+        ahead[kWidth];  ///< distance from the voxel to the surface along the optical axis, as stored; -FLT_MAX where the frame says nothing
+    float distance[kWidth];       ///< the new value
+    std::int32_t colour[kWidth];  ///< 1 where the voxel takes part in colour
+  };
+
+  FOOTHOLD_HD bool in_view(const Eigen::Vector3f& corner_world, float side_m) const {
+    const Eigen::Vector3f half = Eigen::Vector3f::Constant(0.5F * side_m);
+    const Eigen::Vector3f centre = camera_from_world * (corner_world + half);
+    const BlockExtent extent = bound_projection(centre, kHalfDiagonal * side_m, camera.intrinsics, camera.depth.width, camera.depth.height);
+    if (!extent.visible() || extent.z_near > camera.max_depth_m + volume.truncation_m) return false;
+    for (int v = extent.v_min / kDepthTilePx; v <= extent.v_max / kDepthTilePx; ++v) {
+      for (int u = extent.u_min / kDepthTilePx; u <= extent.u_max / kDepthTilePx; ++u) {
+        const float depth_m = tile_depths_m[v * num_tile_columns + u];
+        if (depth_m > 0.0F && extent.z_near <= depth_m + volume.truncation_m) return true;
+      }
+    }
+    return false;
+  }
+
+  /// Projects voxels into the depth image.
+  FOOTHOLD_HD void observe(int first, const Eigen::Vector3f& corner, const Eigen::Matrix3f& step, Voxels& voxels) const {
+    const float width = static_cast<float>(camera.depth.width);
+    const float height = static_cast<float>(camera.depth.height);
+    const float fx = camera.intrinsics.fx;
+    const float fy = camera.intrinsics.fy;
+    const float cx = camera.intrinsics.cx + 0.5F;
+    const float cy = camera.intrinsics.cy + 0.5F;
+    const int columns = camera.depth.width;
+    const float* const depth = camera.depth.data;
+    const float to_stored = kStoredOne / volume.truncation_m;
+    const float min_depth_m = camera.min_depth_m;
+    const float max_depth_m = camera.max_depth_m;
+    std::int32_t pixels[kWidth];
+    float z_m[kWidth];
+    for (int i = 0; i < kWidth; ++i) {
+      const float a = static_cast<float>((first + i) & 7);
+      const float b = static_cast<float>(((first + i) >> 3) & 7);
+      const float c = static_cast<float>((first + i) >> 6);
+      const float x = corner[0] + a * step(0, 0) + b * step(0, 1) + c * step(0, 2);
+      const float y = corner[1] + a * step(1, 0) + b * step(1, 1) + c * step(1, 2);
+      const float z = corner[2] + a * step(2, 0) + b * step(2, 1) + c * step(2, 2);
+      const float inverse = 1.0F / z;
+      const float u = fx * x * inverse + cx;
+      const float v = fy * y * inverse + cy;
+      const bool inside = (z > 0.0F) & (u >= 0.0F) & (v >= 0.0F) & (u < width) & (v < height);
+      pixels[i] = static_cast<std::int32_t>(inside ? v : 0.0F) * columns + static_cast<std::int32_t>(inside ? u : 0.0F);
+      z_m[i] = inside ? z : FLT_MAX;
+    }
+    for (int i = 0; i < kWidth; ++i) {
+      const float depth_m = depth[pixels[i]];
+      const bool usable = (depth_m >= min_depth_m) & (depth_m <= max_depth_m) & (z_m[i] < FLT_MAX);
+      voxels.ahead[i] = usable ? (depth_m - z_m[i]) * to_stored : -FLT_MAX;
+    }
+  }
+
+  /// Averages the observations in; returns whether any voxel takes part in colour.
+  FOOTHOLD_HD bool update(VoxelBlock& block, int first, Voxels& voxels) const {
+    const float colour_limit = kColourBand * volume.voxel_size_m * kStoredOne / volume.truncation_m;
+    std::int16_t* const distances = block.distance + first;
+    std::uint8_t* const weights = block.weight + first;
+    float old[kWidth];
+    float weight[kWidth];
+    std::int32_t raised[kWidth];
+    for (int i = 0; i < kWidth; ++i) old[i] = static_cast<float>(distances[i]);
+    for (int i = 0; i < kWidth; ++i) weight[i] = static_cast<float>(weights[i]);
+    const float heaviest = static_cast<float>(max_weight);
+    std::int32_t num_coloured = 0;
+    for (int i = 0; i < kWidth; ++i) {
+      const float ahead = voxels.ahead[i];
+      const bool seen = ahead >= -kStoredOne;
+      const float observed = ahead < kStoredOne ? ahead : kStoredOne;
+      const float average = (old[i] * weight[i] + observed) / (weight[i] + 1.0F);
+      const float more = weight[i] + 1.0F < heaviest ? weight[i] + 1.0F : heaviest;
+      voxels.distance[i] = seen ? average : old[i];
+      raised[i] = static_cast<std::int32_t>(seen ? more : weight[i]);
+      voxels.colour[i] = (ahead >= -colour_limit) & (ahead <= colour_limit) ? 1 : 0;
+      num_coloured += voxels.colour[i];
+    }
+    for (int i = 0; i < kWidth; ++i) {
+      const float rounding = voxels.distance[i] < 0.0F ? -0.5F : 0.5F;
+      distances[i] = static_cast<std::int16_t>(static_cast<std::int32_t>(voxels.distance[i] + rounding));
+    }
+    for (int i = 0; i < kWidth; ++i) weights[i] = static_cast<std::uint8_t>(raised[i]);
+    return num_coloured > 0;
+  }
+
+  FOOTHOLD_HD void count_near_surface(int first, const Voxels& voxels, int (&counts)[8]) const {
+    const float limit = kSurfaceBand * volume.voxel_size_m * kStoredOne / volume.truncation_m;
+    if constexpr (kWidth == 1) {
+      const int octant = octant_of(first & 7, (first >> 3) & 7, first >> 6);
+      counts[octant] += voxels.distance[0] <= limit && voxels.distance[0] >= -limit ? 1 : 0;
+    } else {
+      for (int quarter = 0; quarter < kWidth; quarter += kBlockSide * 4) {
+        std::int32_t near[2] = {0, 0};
+        for (int i = 0; i < kBlockSide * 4; ++i) {
+          const float distance = voxels.distance[quarter + i];
+          const std::int32_t hit = (distance <= limit) & (distance >= -limit) ? 1 : 0;
+          near[0] += (i & 4) == 0 ? hit : 0;
+          near[1] += (i & 4) != 0 ? hit : 0;
+        }
+        const int octant = octant_of(0, ((first + quarter) >> 3) & 7, (first + quarter) >> 6);
+        counts[octant] += near[0];
+        counts[octant + 1] += near[1];
+      }
+    }
+  }
+
+  FOOTHOLD_HD void colour_voxels(VoxelBlock& block, int first, const Voxels& voxels, const Eigen::Vector3f& corner_world) const {
+    const Eigen::Vector3f corner = colour_from_world * corner_world;
+    const Eigen::Matrix3f step = colour_from_world.rotation * volume.voxel_size_m;
+    for (int i = 0; i < kWidth; ++i) {
+      if (voxels.colour[i] == 0) continue;
+      const int voxel = first + i;
+      const Eigen::Vector3f point = corner + step * Eigen::Vector3f(static_cast<float>(voxel & 7), static_cast<float>((voxel >> 3) & 7),
+                                                                    static_cast<float>(voxel >> 6));
+      if (point.z() <= 0.0F) continue;
+      int u = 0;
+      int v = 0;
+      if (!nearest_pixel(colour_intrinsics.project(point), colour.width, colour.height, u, v)) continue;
+      const Rgb8 seen = colour(u, v);
+      // Eight bits hold no small increments: a longer memory would freeze the first colours.
+      const bool coloured = (block.red[voxel] | block.green[voxel] | block.blue[voxel]) != 0;
+      const int before = coloured ? block.weight[voxel] - 1 : 0;
+      const int weight = before < kMaxColourWeight ? before : kMaxColourWeight;
+      block.red[voxel] = average(block.red[voxel], seen.r, weight);
+      block.green[voxel] = average(block.green[voxel], seen.g, weight);
+      block.blue[voxel] = average(block.blue[voxel], seen.b, weight);
+    }
+  }
+
+  static constexpr int kMaxColourWeight = 7;
+  FOOTHOLD_HD static std::uint8_t average(std::uint8_t old, std::uint8_t seen, int weight) {
+    return static_cast<std::uint8_t>((old * weight + seen + (weight + 1) / 2) / (weight + 1));
+  }
+};
+
+}  // namespace foothold

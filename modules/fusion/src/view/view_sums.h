@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// What ViewComparer shares with its kernels: pixels, sums, buffers.
+#pragma once
+
+#include <vector>
+
+#include "foothold/fusion/view_comparer.h"
+
+namespace foothold {
+
+/// One compared pixel: depth [m], and grey in [0, 1] or -1 where the colour camera did not see the point.
+struct CheckPixel {
+  float depth_m;
+  float grey;
+};
+
+/// What is summed over the pixels of a tile. From kColours on: over agreeing pixels with colour on both sides.
+enum CheckSum {
+  kValid,
+  kOverlap,
+  kAgree,
+  kFront,
+  kBehind,
+  kDifference,
+  kColours,
+  kLive,
+  kModel,
+  kLive2,
+  kModel2,
+  kLiveModel,
+  kNumCheckSums
+};
+
+/// The moments of two variables over pixels, each about the mean of its part of them.
+struct CheckMoments {
+  double count;
+  double live_variance;  ///< times count, as the other two
+  double model_variance;
+  double covariance;
+};
+
+/// What a comparison sums over a frame.
+struct CheckTotals {
+  double sums[kNumCheckSums];
+  CheckMoments texture;  ///< about the means of tiles
+};
+static_assert(sizeof(CheckTotals) == 8 * (kNumCheckSums + 4), "copied from the device");
+
+/// The moments of some sums about their own means; nothing without pixels.
+template <class T>
+FOOTHOLD_HD CheckMoments moments_of(const T* sums) {
+  const double n = static_cast<double>(sums[kColours]);
+  if (n < 1.0) return {};
+  const double live = static_cast<double>(sums[kLive]);
+  const double model = static_cast<double>(sums[kModel]);
+  return {n, static_cast<double>(sums[kLive2]) - live * live / n, static_cast<double>(sums[kModel2]) - model * model / n,
+          static_cast<double>(sums[kLiveModel]) - live * model / n};
+}
+
+struct ViewComparer::Scratch {
+  explicit Scratch(MemoryKind memory) : pixels(memory), pose(memory), tile_sums(memory), totals(memory) {}
+
+  Intrinsics intrinsics;  ///< of the reduced image
+  int width = 0;
+  int height = 0;
+  Array<CheckPixel> pixels;
+  Array<SE3> pose;         ///< of a single comparison
+  Array<float> tile_sums;  ///< by comparison, then by tile
+  Array<CheckTotals> totals;
+  std::vector<CheckTotals> host_totals;  ///< what queue_results() asked for
+};
+
+}  // namespace foothold
