@@ -3,6 +3,7 @@
 /// What IcpTracker shares with its kernels: the pyramid, the sums of a step, the progress of an alignment, buffers.
 #pragma once
 
+#include "foothold/base/normal_equations.h"
 #include "foothold/fusion/icp_tracker.h"
 
 namespace foothold {
@@ -16,7 +17,6 @@ struct DepthLevel {
 };
 
 /// What an alignment step sums over pixels: the upper triangle of H, J^T r, and then these.
-inline constexpr int kNumHessian = 21;
 inline constexpr int kCostSum = kNumHessian + 6;  ///< the robust cost, 1 for each valid pixel without a partner
 inline constexpr int kInlierSum = kCostSum + 1;   ///< pixels with a partner
 inline constexpr int kValidSum = kCostSum + 2;    ///< pixels with depth

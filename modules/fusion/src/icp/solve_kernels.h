@@ -4,7 +4,6 @@
 #pragma once
 
 #include "icp/icp_state.h"
-#include "icp/small_cholesky.h"
 
 namespace foothold {
 
@@ -52,22 +51,11 @@ struct SolveStep {
  private:
   FOOTHOLD_HD void propose(IcpState& state) const {
     const int size = rotation_only ? 3 : 6;
-    double matrix[6][6];
     double step[6];
-    int row = 0;
-    for (int a = 0; a < 6; ++a) {
-      for (int b = a; b < 6; ++b, ++row) {
-        matrix[b][a] = state.sums[row];
-        matrix[a][b] = state.sums[row];
-      }
-      matrix[a][a] *= 1.0 + static_cast<double>(state.damping);
-      step[a] = -state.sums[kNumHessian + a];
-    }
-    if (!cholesky_factor(matrix, size)) {
+    if (!solve_damped(state.sums, static_cast<double>(state.damping), 0.0, size, step)) {
       state.converged = 1;
       return;
     }
-    cholesky_solve(matrix, size, step);
     Tangent6 tangent = Tangent6::Zero();
     double length = 0.0;
     for (int a = 0; a < size; ++a) {
