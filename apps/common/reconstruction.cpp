@@ -25,7 +25,7 @@ double Reconstruction::mapped_fraction(const Frame& frame_host, const SE3& world
   SurfaceMap rendering(context_.memory());
   const RenderCamera camera{frame.calibration.depth, frame.depth.width, frame.depth.height, world_from_camera};
   Raycaster(context_).render(pipeline_->volume(), camera.reduced(settings.render_divisor), rendering, true);
-  ViewComparer comparer(context_, settings.refiner.check);
+  ViewComparer comparer(context_, settings.volume.depth_range());
   comparer.set_frame(frame);
   return static_cast<double>(comparer.compare(rendering, world_from_camera).overlap);
 }

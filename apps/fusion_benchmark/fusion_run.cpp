@@ -79,7 +79,7 @@ CeilingRun run_ceiling(const Context& context, const Sequence& map, const Sequen
     if (frame.world_from_camera) volume.integrate(frame.view(), *frame.world_from_camera);
     if (!progress(++num_done)) return {};
   }
-  PoseRefiner refiner(context, settings.refiner);
+  PoseRefiner refiner(context, settings.refiner, settings.volume.depth_range());
   CeilingRun run;
   for (int i = 0; i < tested.num_frames(); i += stride) {
     const RgbdFrame frame = tested.load(i);

@@ -173,7 +173,7 @@ int main(int argc, char** argv) {
                  "ceiling of relocalisation with refinement");
   app.add_option("--stride", options.stride, "Use every Nth frame").range(1, 1000000).show_default();
   app.add_option("--settings", options.settings_file, "JSON file of settings").type_name("FILE");
-  app.add_option("--set", options.assignments, "One setting as setting=value, such as icp.finest_level=1; repeatable").repeatable();
+  app.add_option("--set", options.assignments, "One setting as setting=value, such as volume.max_weight=100; repeatable").repeatable();
   app.add_option("--json", options.json_file, "Write the results to FILE").type_name("FILE");
   app.add_option("--trajectory", options.trajectory_file, "Write the trajectory to FILE, in the format of the TUM benchmark")
       .type_name("FILE");

@@ -11,7 +11,7 @@ namespace foothold::benchmark {
 
 MappingRelocaliser::MappingRelocaliser(const Context& context, std::unique_ptr<Relocaliser> relocaliser, const TsdfSettings& map,
                                        const PoseRefinerSettings& refiner, Refinement refinement)
-    : relocaliser_(std::move(relocaliser)), volume_(context, map), refiner_(context, refiner), refinement_(refinement) {
+    : relocaliser_(std::move(relocaliser)), volume_(context, map), refiner_(context, refiner, map.depth_range()), refinement_(refinement) {
   if (context.memory() != MemoryKind::kHost) throw InvalidSettings("--device: got cuda, expected cpu for methods that refine on a map");
 }
 

@@ -53,7 +53,7 @@ class UndisturbedTest(ReplayTest):
 
     def test_settings_reach_the_pipeline(self):
         (self.folder / "settings.json").write_text('{"fusion": {"volume": {"max_depth_m": 4}}}')
-        result = self.replay("--voxel", 0.02, "--settings", "settings.json", "--set", "fusion.icp.max_depth_m=4", "--method", "none", "--stride", 2)
+        result = self.replay("--voxel", 0.02, "--settings", "settings.json", "--set", "fusion.volume.max_depth_m=4", "--method", "none", "--stride", 2)
         volume = result["settings"]["fusion"]["volume"]
         self.assertAlmostEqual(volume["voxel_size_m"], 0.02, places=6)
         self.assertAlmostEqual(volume["truncation_m"], 0.08, places=6)

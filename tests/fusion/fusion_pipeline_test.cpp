@@ -340,5 +340,32 @@ TEST_CASE("FusionSettings: defaults validate, and nested settings are checked") 
   REQUIRE_THROWS_AS(FusionPipeline(Context(), settings, nullptr), InvalidSettings);
 }
 
+TEST_CASE("FusionSettings: the range of depth is stated once, and everything heeds it") {
+  const std::vector<SettingDescription> described = describe_settings(FusionSettings{});
+  const auto num_named = std::count_if(described.begin(), described.end(),
+                                       [](const SettingDescription& setting) { return setting.path.find("depth_m") != std::string::npos; });
+  REQUIRE(num_named == 2);  // the nearest and the farthest
+  REQUIRE(described.size() <= 22);
+  const RgbdFrame& frame = test::office().frame(0);
+  std::vector<float> depths_m(frame.depth.data(), frame.depth.data() + frame.depth.size());
+  const auto farther = depths_m.begin() + static_cast<std::ptrdiff_t>(depths_m.size() / 10 * 9);
+  std::nth_element(depths_m.begin(), farther, depths_m.end());
+  FusionSettings settings;
+  settings.volume.max_depth_m = *farther;  // a tenth is out of range
+  FusionPipeline pipeline(Context(), settings, nullptr);
+  pipeline.process(frame.view());
+  const FusionFrameResult result = pipeline.process(frame.view());
+  int num_in_range = 0;
+  int num_measured = 0;
+  for (int v = 2; v < frame.depth.height(); v += 4) {
+    for (int u = 2; u < frame.depth.width(); u += 4) {
+      num_in_range += settings.volume.depth_range().holds(frame.depth(u, v)) ? 1 : 0;
+      num_measured += frame.depth(u, v) > 0.0F ? 1 : 0;
+    }
+  }
+  REQUIRE(num_in_range < num_measured);
+  REQUIRE(result.agreement.num_valid == num_in_range);
+}
+
 }  // namespace
 }  // namespace foothold

@@ -83,11 +83,8 @@ FusionSettings small_fusion() {
   settings.volume.voxel_size_m = 0.04F;
   settings.volume.truncation_m = 0.12F;
   settings.render_divisor = 1;
-  settings.icp.coarsest_level = 1;  // as many levels as by default
-  settings.icp.finest_level = 0;
   settings.refiner.coarse_divisor = 4;
   settings.refiner.fine_divisor = 2;
-  settings.refiner.check.stride_px = 4;
   return settings;
 }
 

@@ -130,11 +130,9 @@ TEST_CASE("CUDA: a rendering shows the CPU's depths and normals") {
 TEST_CASE("CUDA: tracking gives the CPU's poses and measures") {
   const TwoViews views;
   const SE3& start = views.camera.world_from_camera;
-  IcpSettings settings;
-  settings.coarsest_level = 2;
-  settings.finest_level = 0;
-  IcpTracker host_tracker(views.host, settings);
-  IcpTracker device_tracker(views.device, settings);
+  constexpr IcpLevels kSmallImage{2, 0};
+  IcpTracker host_tracker(views.host, kSmallImage);
+  IcpTracker device_tracker(views.device, kSmallImage);
   FrameUploader uploader(views.device);
   Random random = test::test_random();
   for (int i = 0; i < 4; ++i) {
@@ -153,7 +151,7 @@ TEST_CASE("CUDA: tracking gives the CPU's poses and measures") {
   }
 }
 
-TEST_CASE("CUDA: the view check finds the CPU's agreement") {
+TEST_CASE("CUDA: comparing views finds the CPU's agreement") {
   const RgbdFrame frame = test::render(test::Scene{}, test::pose_on_arc(0.45F), 160, 120);
   std::vector<ViewAgreement> agreements;
   for (const Device device : {Device::kCpu, Device::kCuda}) {
@@ -162,9 +160,9 @@ TEST_CASE("CUDA: the view check finds the CPU's agreement") {
     SurfaceMap view(context.memory());
     Raycaster(context).render(map, test::camera_of(frame).reduced(2), view, true);
     FrameUploader uploader(context);
-    ViewComparer check(context);
-    check.set_frame(uploader.upload(frame.view()));
-    agreements.push_back(check.compare(view, *frame.world_from_camera));
+    ViewComparer comparer(context);
+    comparer.set_frame(uploader.upload(frame.view()));
+    agreements.push_back(comparer.compare(view, *frame.world_from_camera));
   }
   constexpr float kTolerance = 2e-3F;  // a pixel or two of a thousand
   REQUIRE(agreements[0].overlap > 0.5F);
@@ -181,7 +179,6 @@ TEST_CASE("CUDA: candidates refined in one batch end where the CPU's end, with i
   PoseRefinerSettings settings;  // for images of a quarter of a camera's size
   settings.coarse_divisor = 2;
   settings.fine_divisor = 1;
-  settings.check.stride_px = 2;
   Random random = test::test_random();
   const auto sees_nothing = [](float x) { return PoseEstimate{test::look_at({x, 0.0F, 20.0F}, {x, 0.0F, 30.0F}), 0.5F}; };
   std::vector<PoseEstimate> near = {sees_nothing(0.0F)};
@@ -219,8 +216,6 @@ TEST_CASE("CUDA: the pipeline tracks, grades and fuses as the CPU's does") {
   FusionSettings settings;
   settings.volume = coarse();
   settings.render_divisor = 1;
-  settings.icp.coarsest_level = 2;
-  settings.icp.finest_level = 0;
   std::vector<std::vector<FusionFrameResult>> results(2);
   std::vector<int> num_blocks;
   for (const Device device : {Device::kCpu, Device::kCuda}) {

@@ -8,16 +8,9 @@
 
 namespace foothold {
 
-namespace {
-/// A relocalised pose this near to the tracked one confirms it: the error at which the papers of the field call a relocalisation right.
-constexpr float kSamePlaceM = 0.05F;
-constexpr float kSamePlaceDeg = 5.0F;
-}  // namespace
-
 void FusionSettings::validate() const {
   validate_settings(*this);
   volume.validate();
-  icp.validate();
   refiner.validate();
 }
 
@@ -27,9 +20,9 @@ FusionPipeline::FusionPipeline(const Context& context, const FusionSettings& set
       relocaliser_(relocaliser),
       volume_(context, settings.volume),
       raycaster_(context),
-      icp_(context, settings.icp),
-      comparer_(context, settings.refiner.check),
-      refiner_(context, settings.refiner),
+      icp_(context, IcpLevels::for_divisor(settings.render_divisor), settings.volume.depth_range()),
+      comparer_(context, settings.volume.depth_range()),
+      refiner_(context, settings.refiner, settings.volume.depth_range()),
       policy_(settings.recovery),
       rendering_(context.memory()),
       guess_(context.memory()) {
@@ -175,7 +168,7 @@ void FusionPipeline::relocalise(const Frame& frame, Sighting& sighting, FusionFr
   const TrackingGrade grade = grade_tracking(found.measures);
   if (grade.quality != TrackingQuality::kGood) return;
   if (sighting.tracked != TrackingQuality::kFailed) {
-    if (is_near(found.world_from_camera, sighting.tracked_world_from_camera, kSamePlaceM, kSamePlaceDeg)) {
+    if (is_near(found.world_from_camera, sighting.tracked_world_from_camera, kSamePoseM, kSamePoseDeg)) {
       sighting.outcome = RelocalisationOutcome::kConfirms;
       return;
     }

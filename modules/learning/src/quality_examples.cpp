@@ -53,12 +53,6 @@ Spoilage draw_spoilage(float spoilt_part, Random& random) {
   return kKinds[random.below(3)];
 }
 
-IcpSettings mining_icp(IcpSettings settings) {
-  settings.finest_level = kMinedLevel;
-  settings.coarsest_level = std::max(settings.coarsest_level, kMinedLevel);
-  return settings;
-}
-
 /// How the result of a trial is called.
 enum class Verdict {
   kByError,     ///< right if near the truth, wrong if far from it
@@ -95,10 +89,10 @@ class Collector {
         examples_(examples),
         volume_(context, fusion.volume),
         raycaster_(context),
-        icp_(context, fusion.icp),
-        mining_icp_(context, mining_icp(fusion.icp)),
-        comparer_(context, fusion.refiner.check),
-        refiner_(context, fusion.refiner),
+        icp_(context, IcpLevels::for_divisor(fusion.render_divisor), fusion.volume.depth_range()),
+        mining_icp_(context, IcpLevels{kMinedLevel, kMinedLevel}, fusion.volume.depth_range()),
+        comparer_(context, fusion.volume.depth_range()),
+        refiner_(context, fusion.refiner, fusion.volume.depth_range()),
         map_(context.memory()) {}
 
   bool has_map() const { return !mapped_.empty(); }
@@ -194,15 +188,15 @@ class Collector {
     add(examples_.tracking, {values.begin(), values.end()}, tracked.world_from_camera, frame, verdict);
     // The pipeline also asks the acceptance classifier about tracked poses, in the rendering from the pose before.
     const ViewAgreement agreement = comparer_.compare(map_, tracked.world_from_camera);
-    if (agreement.overlap < fusion_.refiner.min_overlap || agreement.colour_correlation == 0.0F) return;
+    if (agreement.overlap < kMinOverlap || agreement.colour_correlation == 0.0F) return;
     const std::array<float, kNumAcceptanceFeatures> view = acceptance_features(tracked.measures, agreement);
     add(examples_.acceptance, {view.begin(), view.end()}, tracked.world_from_camera, frame, verdict);
   }
 
   void try_acceptance(const RgbdFrame& frame, const SE3& start, Verdict verdict) {
     const RefinedPose refined = refiner_.refine_one(frame.view(), volume_, start);
-    if (!refined.measures.well_posed || refined.agreement.overlap < fusion_.refiner.min_overlap) return;  // refused without a classifier
-    if (refined.agreement.colour_correlation == 0.0F) return;                                             // so are poses in the dark
+    if (!refined.measures.well_posed || refined.agreement.overlap < kMinOverlap) return;  // refused without a classifier
+    if (refined.agreement.colour_correlation == 0.0F) return;                             // so are poses in the dark
     const std::array<float, kNumAcceptanceFeatures> values = acceptance_features(refined.measures, refined.agreement);
     add(examples_.acceptance, {values.begin(), values.end()}, refined.world_from_camera, frame, verdict);
   }

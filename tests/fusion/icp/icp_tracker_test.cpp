@@ -2,11 +2,13 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/fusion/icp_tracker.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "foothold/base/error.h"
+#include "foothold/base/contract.h"
 #include "fusion/scene.h"
+#include "icp/icp_state.h"
 #include "support/catch.h"
 #include "support/random_seed.h"
 
@@ -17,13 +19,7 @@ using test::make_context;
 using test::Scene;
 
 /// The images of these tests have half the size of a camera's.
-IcpSettings small_image_settings() {
-  IcpSettings settings;
-  settings.coarsest_level = 3;
-  settings.finest_level = 0;
-  settings.finest_steps = 10;
-  return settings;
-}
+constexpr IcpLevels kSmallImage{3, 0};
 
 struct Model {
   explicit Model(const Context& context, const Scene& scene, float t) : volume(test::fused_arc(context, scene, 12)) {
@@ -38,7 +34,7 @@ TEST_CASE("IcpTracker: recovers known motions against a rendered map") {
   const Scene scene;
   const Context context = make_context(1);
   const Model model(context, scene, 0.5F);
-  IcpTracker tracker(context, small_image_settings());
+  IcpTracker tracker(context, kSmallImage);
   Random random = test::test_random();
   for (int i = 0; i < 12; ++i) {
     // Up to 3 deg and 4 cm per axis: fast hand motion at 30 frames a second.
@@ -58,7 +54,7 @@ TEST_CASE("IcpTracker: survives a quarter of the image being covered") {
   const Scene scene;
   const Context context = make_context(1);
   const Model model(context, scene, 0.5F);
-  IcpTracker tracker(context, small_image_settings());
+  IcpTracker tracker(context, kSmallImage);
   Random random = test::test_random();
   const SE3 truth = model.map.camera.world_from_camera * test::random_motion(random, 0.02F, 0.02F);
   RgbdFrame frame = test::render(scene, truth);
@@ -83,7 +79,7 @@ TEST_CASE("IcpTracker: where the map ends, nothing is an outlier, and the determ
   const Scene scene;
   const Context context = make_context(1);
   Model model(context, scene, 0.5F);
-  IcpTracker tracker(context, small_image_settings());
+  IcpTracker tracker(context, kSmallImage);
   Random random = test::test_random();
   const SE3 truth = model.map.camera.world_from_camera * test::random_motion(random, 0.02F, 0.02F);
   const RgbdFrame frame = test::render(scene, truth);
@@ -108,7 +104,7 @@ TEST_CASE("IcpTracker: a strip that agrees is no evidence") {
   const Scene scene;
   const Context context = make_context(1);
   Model model(context, scene, 0.5F);
-  IcpTracker tracker(context, small_image_settings());
+  IcpTracker tracker(context, kSmallImage);
   const RgbdFrame frame = test::render(scene, model.map.camera.world_from_camera);
   tracker.set_frame(frame.view());
   float last_residual_m = tracker.track(model.map, model.map.camera.world_from_camera).measures.residual_m;
@@ -124,7 +120,7 @@ TEST_CASE("IcpTracker: a strip that agrees is no evidence") {
   REQUIRE_FALSE(nothing.measures.well_posed);
   REQUIRE(nothing.num_mapped == 0);
   REQUIRE(nothing.measures.inlier_fraction == 0.0F);
-  REQUIRE(nothing.measures.residual_m == Approx(tracker.settings().coarsest_outlier_m));
+  REQUIRE(nothing.measures.residual_m == Approx(kCoarsestOutlierM));
 }
 
 TEST_CASE("IcpTracker: a plane alone is ill-posed in the measures, and moves nothing along itself") {
@@ -137,7 +133,7 @@ TEST_CASE("IcpTracker: a plane alone is ill-posed in the measures, and moves not
   volume.integrate(frame.view(), pose);
   SurfaceMap map;
   Raycaster(context).render(volume, test::camera_of(frame), map);
-  IcpTracker tracker(context, small_image_settings());
+  IcpTracker tracker(context, kSmallImage);
   tracker.set_frame(frame.view());
   const TrackingResult on_plane = tracker.track(map, pose);
   REQUIRE(translation_distance_m(on_plane.world_from_camera, pose) < 0.02F);
@@ -160,7 +156,7 @@ TEST_CASE("IcpTracker: between a wall and a floor, the loosest translation is al
   volume.integrate(frame.view(), pose);
   SurfaceMap map;
   Raycaster(context).render(volume, test::camera_of(frame), map);
-  IcpTracker tracker(context, small_image_settings());
+  IcpTracker tracker(context, kSmallImage);
   tracker.set_frame(frame.view());
   const TrackingResult result = tracker.track(map, pose);
   REQUIRE(result.measures.well_posed);  // voxels are not quite flat
@@ -172,7 +168,7 @@ TEST_CASE("IcpTracker: a frame without depth, or of another place, is hopeless b
   const Scene scene;
   const Context context = make_context(1);
   const Model model(context, scene, 0.5F);
-  IcpTracker tracker(context, small_image_settings());
+  IcpTracker tracker(context, kSmallImage);
   RgbdFrame frame = test::render(scene, test::pose_on_arc(0.5F));
   for (const float value : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     for (std::size_t i = 0; i < frame.depth.size(); ++i) frame.depth.data()[i] = value;
@@ -198,7 +194,7 @@ TEST_CASE("IcpTracker: identical for any number of threads") {
   for (const int num_threads : {1, 2, 4}) {
     const Context context = make_context(num_threads);
     const Model model(context, scene, 0.5F);
-    IcpTracker tracker(context, small_image_settings());
+    IcpTracker tracker(context, kSmallImage);
     const RgbdFrame frame = test::render(scene, model.map.camera.world_from_camera * motion);
     tracker.set_frame(frame.view());
     const TrackingResult result = tracker.track(model.map, model.map.camera.world_from_camera);
@@ -215,7 +211,7 @@ TEST_CASE("IcpTracker: several alignments at once end where each ends alone") {
   const Context context = make_context();
   const TsdfVolume volume = test::fused_arc(context, scene, 12);
   const RgbdFrame frame = test::render(scene, test::pose_on_arc(0.5F));
-  IcpTracker tracker(context, small_image_settings());
+  IcpTracker tracker(context, kSmallImage);
   tracker.set_frame(frame.view());
   Random random = test::test_random();
   std::vector<SE3> guesses;
@@ -248,19 +244,27 @@ TEST_CASE("IcpTracker: several alignments at once end where each ends alone") {
   REQUIRE_FALSE(together.back().measures.well_posed);
 }
 
-TEST_CASE("IcpSettings: defaults validate, and each constraint is enforced") {
-  REQUIRE_NOTHROW(IcpSettings{}.validate());
-  const auto require_invalid = [](auto change) {
-    IcpSettings settings;
-    change(settings);
-    REQUIRE_THROWS_AS(settings.validate(), InvalidSettings);
+TEST_CASE("IcpLevels: two, of which the finest has the pixels of the reduced image; others than the pyramid's are refused") {
+  for (const auto& [divisor, finest] : {std::pair{1, 0}, {2, 1}, {4, 2}, {5, 2}, {8, 3}, {1000, 5}}) {
+    REQUIRE(IcpLevels::for_divisor(divisor).finest == finest);
+    REQUIRE(IcpLevels::for_divisor(divisor).coarsest == finest + 1);
+  }
+  for (const IcpLevels& levels : {IcpLevels{1, 2}, IcpLevels{7, 2}, IcpLevels{1, -1}})
+    REQUIRE_THROWS_AS(IcpTracker(Context(), levels), ContractViolation);
+}
+
+TEST_CASE("IcpTracker: sees depth where one reading is in range") {
+  const Context context = make_context(1);
+  IcpTracker tracker(context, {1, 0}, {0.5F, 2.0F});
+  RgbdFrame frame = test::render(Scene{}, test::pose_on_arc(0.5F), 64, 48);
+  const auto sees_depth = [&](float depth_m) {
+    std::fill_n(frame.depth.data(), frame.depth.size(), 0.0F);
+    frame.depth(40, 30) = depth_m;
+    tracker.set_frame(frame.view());
+    return tracker.sees_depth();
   };
-  require_invalid([](IcpSettings& s) { s.finest_level = s.coarsest_level + 1; });
-  require_invalid([](IcpSettings& s) { s.coarsest_level = 7; });
-  require_invalid([](IcpSettings& s) { s.finest_steps = 0; });
-  require_invalid([](IcpSettings& s) { s.finest_outlier_m = 0.0F; });
-  require_invalid([](IcpSettings& s) { s.min_depth_m = s.max_depth_m; });
-  require_invalid([](IcpSettings& s) { s.noise_growth = -1.0F; });
+  for (const float depth_m : {0.5F, 1.0F, 2.0F}) REQUIRE(sees_depth(depth_m));
+  for (const float depth_m : {0.0F, 0.49F, 2.01F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) REQUIRE_FALSE(sees_depth(depth_m));
 }
 
 }  // namespace

@@ -104,7 +104,7 @@ ClassifierModel undecided() {
 }
 
 TEST_CASE("PoseRefiner: the relocaliser's confidence multiplies the odds, up to a limit, where refinement stayed near its proposal") {
-  PoseRefiner refiner(office_map().context(), {}, undecided());
+  PoseRefiner refiner(office_map().context(), {}, office_map().settings().depth_range(), undecided());
   const RgbdFrame& frame = test::office().frame(kSeen + 1);
   const auto refine = [&](float offset_m, float confidence) {
     SE3 pose = *frame.world_from_camera;

@@ -4,7 +4,6 @@
 
 #include <limits>
 
-#include "foothold/base/error.h"
 #include "fusion/scene.h"
 #include "support/catch.h"
 
@@ -131,14 +130,6 @@ TEST_CASE("ViewComparer: several comparisons at once find what each finds alone"
   }
   REQUIRE(together.front().overlap > 0.97F);
   REQUIRE(together.back().overlap == 0.0F);
-}
-
-TEST_CASE("ViewComparerSettings: defaults validate, and the range of depth must not be empty") {
-  ViewComparerSettings settings;
-  REQUIRE_NOTHROW(settings.validate());
-  settings.min_depth_m = settings.max_depth_m;
-  REQUIRE_THROWS_AS(settings.validate(), InvalidSettings);
-  REQUIRE_THROWS_AS(ViewComparer(Context(), settings), InvalidSettings);
 }
 
 TEST_CASE("ViewComparer: identical for any number of threads") {

@@ -10,6 +10,19 @@ namespace foothold {
 
 inline constexpr int kMaxIcpLevels = 7;
 
+/// Steps at each level, at most; a step shorter than kConvergedStep, rotation [rad] and translation [m] together, is the last (T:
+/// fusion_benchmark, kitchen, and office with exact poses; R: 10 at the coarsest).
+inline constexpr int kStepsPerLevel = 10;
+inline constexpr float kConvergedStep = 1e-4F;
+/// Distance at which a residual counts as an outlier [m], at the coarsest and the finest level, and 1 m of depth (T: fusion_benchmark,
+/// kitchen).
+inline constexpr float kCoarsestOutlierM = 0.15F;
+inline constexpr float kFinestOutlierM = 0.01F;
+/// Growth of the outlier distance with depth z [m]: 1 + growth * z^2; and of the assumed noise, by whose inverse square residuals are
+/// weighted (T: fusion_benchmark, kitchen).
+inline constexpr float kOutlierGrowth = 0.3F;
+inline constexpr float kNoiseGrowth = 4.0F;
+
 /// A level of the pyramid, by value for kernels.
 struct DepthLevel {
   ImageView<const float> depth;

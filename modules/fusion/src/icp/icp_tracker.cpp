@@ -4,7 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "foothold/base/error.h"
+#include "foothold/base/contract.h"
 #include "foothold/base/exec/dispatch.h"
 #include "icp/icp_tracker_kernels.h"
 
@@ -14,21 +14,15 @@ namespace foothold {
 extern template struct IcpAlgorithms<CudaExecutor>;
 #endif
 
-void IcpSettings::validate() const {
-  validate_settings(*this);
-  if (finest_level > coarsest_level) {
-    throw InvalidSettings("setting finest_level: got " + std::to_string(finest_level) + ", expected at most coarsest_level, " +
-                          std::to_string(coarsest_level));
-  }
-  if (min_depth_m >= max_depth_m) {
-    throw InvalidSettings("setting min_depth_m: got " + detail::to_text(min_depth_m) + ", expected less than max_depth_m, " +
-                          detail::to_text(max_depth_m));
-  }
+IcpLevels IcpLevels::for_divisor(int divisor) {
+  const int level = static_cast<int>(std::lround(std::log2(static_cast<double>(divisor))));
+  const int finest = std::min(level, kMaxIcpLevels - 2);
+  return {finest + 1, finest};
 }
 
-IcpTracker::IcpTracker(const Context& context, const IcpSettings& settings)
-    : context_(context), settings_(settings), scratch_(std::make_unique<Scratch>(context.memory())) {
-  settings.validate();
+IcpTracker::IcpTracker(const Context& context, const IcpLevels& levels, const DepthRange& range)
+    : context_(context), levels_(levels), range_(range), scratch_(std::make_unique<Scratch>(context.memory())) {
+  FOOTHOLD_EXPECTS(levels.finest >= 0 && levels.finest <= levels.coarsest && levels.coarsest < kMaxIcpLevels);
 }
 IcpTracker::~IcpTracker() = default;
 IcpTracker::IcpTracker(IcpTracker&&) noexcept = default;
@@ -40,8 +34,8 @@ void IcpTracker::set_frame(const Frame& frame) {
   const ScopedStage stage(context_, "fusion/pyramid");
   Scratch& scratch = *scratch_;
   scratch.levels[0] = {frame.depth, frame.calibration.depth};
-  while (scratch.depths_m.size() < static_cast<std::size_t>(settings_.coarsest_level)) scratch.depths_m.emplace_back(context_.memory());
-  for (int l = 1; l <= settings_.coarsest_level; ++l) {
+  while (scratch.depths_m.size() < static_cast<std::size_t>(levels_.coarsest)) scratch.depths_m.emplace_back(context_.memory());
+  for (int l = 1; l <= levels_.coarsest; ++l) {
     const DepthLevel& fine = scratch.levels[l - 1];
     const int width = fine.depth.width / 2;
     const int height = fine.depth.height / 2;
@@ -49,7 +43,7 @@ void IcpTracker::set_frame(const Frame& frame) {
     depths_m.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
     scratch.levels[l] = {{depths_m.data(), width, height, context_.memory()}, fine.intrinsics.scaled(0.5F)};
   }
-  dispatch(context_, [&](auto on) { IcpAlgorithms<typename decltype(on)::Executor>::build_pyramid(context_, settings_, scratch); });
+  dispatch(context_, [&](auto on) { IcpAlgorithms<typename decltype(on)::Executor>::build_pyramid(context_, levels_, range_, scratch); });
 }
 
 namespace {
@@ -71,7 +65,7 @@ bool log_determinant(const Eigen::Matrix<double, 6, 6>& hessian, double count, f
   for (int a = 0; a < 6; ++a) {
     for (int b = 0; b < 6; ++b) matrix[a][b] = hessian(a, b) / count;
   }
-  if (!(count > 0.0) || !cholesky_factor(matrix, 6)) return false;
+  if (!(count > 0.0) || !cholesky_factor(matrix)) return false;
   double sum = 0.0;
   for (int a = 0; a < 6; ++a) sum += 2.0 * std::log(matrix[a][a]);
   result = static_cast<float>(sum);
@@ -89,11 +83,11 @@ Eigen::Vector3f loosest_translation(const Eigen::Matrix<double, 6, 6>& hessian) 
 }
 
 /// Alignments on less of a frame than this count as if it were that much: a patch that agrees with itself is no evidence. The same
-/// part under which poses are refused without asking, PoseRefinerSettings::min_overlap.
+/// part as kMinOverlap, under which poses are refused without asking.
 constexpr double kLeastMappedPart = 0.2;
 
 /// @param num_total  Pixels at the finest level.
-TrackingResult summarise(const IcpState& state, const SE3& world_from_camera, double num_total, const IcpSettings& settings) {
+TrackingResult summarise(const IcpState& state, const SE3& world_from_camera, double num_total) {
   TrackingResult result;
   result.world_from_camera = world_from_camera;
   const double num_inliers = state.sums[kInlierSum];
@@ -112,9 +106,9 @@ TrackingResult summarise(const IcpState& state, const SE3& world_from_camera, do
     measures.inlier_fraction = static_cast<float>(num_inliers / num_counted);
     const double inliers_cost = state.sums[kCostSum] - (num_valid - num_inliers);
     // Tukey's loss saturates at c^2 / 6 in units of a squared residual.
-    const double squared = (inliers_cost * settings.finest_outlier_m * settings.finest_outlier_m / 6.0 +
-                            (num_counted - num_inliers) * settings.coarsest_outlier_m * settings.coarsest_outlier_m) /
-                           num_counted;
+    const double squared =
+        (inliers_cost * kFinestOutlierM * kFinestOutlierM / 6.0 + (num_counted - num_inliers) * kCoarsestOutlierM * kCoarsestOutlierM) /
+        num_counted;
     measures.residual_m = static_cast<float>(std::sqrt(std::max(0.0, squared)));
   }
   return result;
@@ -123,8 +117,9 @@ TrackingResult summarise(const IcpState& state, const SE3& world_from_camera, do
 
 bool IcpTracker::sees_depth() {
   FOOTHOLD_EXPECTS(!scratch_->levels[0].depth.empty());
-  return dispatch(context_,
-                  [&](auto on) { return IcpAlgorithms<typename decltype(on)::Executor>::count_depth(context_, settings_, *scratch_); }) > 0;
+  return dispatch(context_, [&](auto on) {
+           return IcpAlgorithms<typename decltype(on)::Executor>::count_depth(context_, levels_.finest, range_, *scratch_);
+         }) > 0;
 }
 
 TrackingResult IcpTracker::track(const SurfaceMap& model, const SE3& guess_world_from_camera) {
@@ -142,7 +137,7 @@ void IcpTracker::align_all(const SurfaceMap& models, const Array<SE3>& guesses_w
   FOOTHOLD_EXPECTS(guesses_world_from_camera.size() == models.num_renderings());
   const ScopedStage stage(context_, "fusion/track");
   dispatch(context_, [&](auto on) {
-    IcpAlgorithms<typename decltype(on)::Executor>::align(context_, settings_, models, guesses_world_from_camera.data(), *scratch_);
+    IcpAlgorithms<typename decltype(on)::Executor>::align(context_, levels_, range_, models, guesses_world_from_camera.data(), *scratch_);
   });
 }
 
@@ -154,10 +149,10 @@ void IcpTracker::queue_results(HostReads& reads) {
 }
 
 std::vector<TrackingResult> IcpTracker::results() const {
-  const auto num_total = static_cast<double>(scratch_->levels[settings_.finest_level].depth.size());
+  const auto num_total = static_cast<double>(scratch_->levels[levels_.finest].depth.size());
   std::vector<TrackingResult> results;
   for (std::size_t i = 0; i < scratch_->host_states.size(); ++i)
-    results.push_back(summarise(scratch_->host_states[i], scratch_->host_world_from_cameras[i], num_total, settings_));
+    results.push_back(summarise(scratch_->host_states[i], scratch_->host_world_from_cameras[i], num_total));
   return results;
 }
 

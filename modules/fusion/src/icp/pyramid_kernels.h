@@ -6,14 +6,14 @@
 #include <cstdint>
 
 #include "foothold/base/image.h"
+#include "foothold/fusion/tsdf_volume.h"
 
 namespace foothold {
 
 /// Averages the depths of 2 x 2 pixels that lie on the nearest one's surface.
 struct HalveDepth {
   ImageView<const float> fine;
-  float min_depth_m;
-  float max_depth_m;
+  DepthRange range;
   float* coarse;
   int coarse_width;
 
@@ -22,8 +22,8 @@ struct HalveDepth {
     const int u = static_cast<int>(i) % coarse_width * 2;
     const int v = static_cast<int>(i) / coarse_width * 2;
     const float depths_m[4] = {fine(u, v), fine(u + 1, v), fine(u, v + 1), fine(u + 1, v + 1)};
-    float nearest_m = max_depth_m + 1.0F;
-    for (const float depth_m : depths_m) nearest_m = depth_m >= min_depth_m && depth_m < nearest_m ? depth_m : nearest_m;
+    float nearest_m = range.max_m + 1.0F;
+    for (const float depth_m : depths_m) nearest_m = depth_m >= range.min_m && depth_m < nearest_m ? depth_m : nearest_m;
     float sum = 0.0F;
     float count = 0.0F;
     for (const float depth_m : depths_m) {
@@ -31,22 +31,20 @@ struct HalveDepth {
       sum += same ? depth_m : 0.0F;
       count += same ? 1.0F : 0.0F;
     }
-    coarse[i] = nearest_m <= max_depth_m ? sum / count : 0.0F;
+    coarse[i] = nearest_m <= range.max_m ? sum / count : 0.0F;
   }
 };
 
 /// Counts the pixels of one row whose depth is in range.
 struct CountRow {
   ImageView<const float> depth;
-  float min_depth_m;
-  float max_depth_m;
+  DepthRange range;
   std::uint32_t* counts;
 
   FOOTHOLD_HD void operator()(std::size_t row) const {
     std::uint32_t count = 0;
     for (int u = 0; u < depth.width; ++u) {
-      const float depth_m = depth(u, static_cast<int>(row));
-      count += depth_m >= min_depth_m && depth_m <= max_depth_m ? 1 : 0;
+      count += range.holds(depth(u, static_cast<int>(row))) ? 1 : 0;
     }
     counts[row] = count;
   }

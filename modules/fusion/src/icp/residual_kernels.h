@@ -15,10 +15,7 @@ struct IcpStep {
   int model_width;
   int model_height;
   float outlier_m;
-  float noise_growth;
-  float outlier_growth;
-  float min_depth_m;
-  float max_depth_m;
+  DepthRange range;
 };
 
 /// Sums the normal equations of one alignment over one chunk of pixels; kWidth pixels of a row side by side.
@@ -101,7 +98,7 @@ struct SumChunk {
     float live[kWidth];
     for (int i = 0; i < kWidth; ++i) live[i] = u0 + i < width ? row[u0 + i] : 0.0F;
     for (int i = 0; i < kWidth; ++i) {
-      const bool valid = (live[i] >= step.min_depth_m) & (live[i] <= step.max_depth_m);
+      const bool valid = (live[i] >= step.range.min_m) & (live[i] <= step.range.max_m);
       const float z = valid ? live[i] : 0.0F;
       const float x = (static_cast<float>(u0 + i) - k.cx) * inverse_fx * z;
       const float y = y_ray * z;
@@ -118,8 +115,8 @@ struct SumChunk {
       points.y[i] = qy;
       points.z[i] = qz;
       points.valid[i] = valid ? 1.0F : 0.0F;
-      points.scale[i] = 1.0F + step.outlier_growth * z * z;
-      points.noise[i] = 1.0F + step.noise_growth * z * z;
+      points.scale[i] = 1.0F + kOutlierGrowth * z * z;
+      points.noise[i] = 1.0F + kNoiseGrowth * z * z;
       points.u[i] = static_cast<float>(column);
       points.v[i] = static_cast<float>(line);
       points.pixel[i] = inside ? line * step.model_width + column : -1;

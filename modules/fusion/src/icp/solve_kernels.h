@@ -18,8 +18,6 @@ struct SolveStep {
   const float* chunk_sums;
   int num_chunks;
   bool first_of_level;
-  bool rotation_only;
-  float converged_step;
 
   template <class Team>
   FOOTHOLD_HD void operator()(const Team& team, SolveScratch& scratch, std::size_t alignment) const {
@@ -50,20 +48,19 @@ struct SolveStep {
 
  private:
   FOOTHOLD_HD void propose(IcpState& state) const {
-    const int size = rotation_only ? 3 : 6;
     double step[6];
-    if (!solve_damped(state.sums, static_cast<double>(state.damping), 0.0, size, step)) {
+    if (!solve_damped(state.sums, static_cast<double>(state.damping), 0.0, step)) {
       state.converged = 1;
       return;
     }
     Tangent6 tangent = Tangent6::Zero();
     double length = 0.0;
-    for (int a = 0; a < size; ++a) {
+    for (int a = 0; a < 6; ++a) {
       tangent[a] = static_cast<float>(step[a]);
       length += step[a] * step[a];
     }
     state.trial = se3_exp(tangent) * state.model_from_camera;
-    if (!(length > static_cast<double>(converged_step) * static_cast<double>(converged_step))) state.converged = 1;
+    if (!(length > static_cast<double>(kConvergedStep) * static_cast<double>(kConvergedStep))) state.converged = 1;
   }
 };
 

@@ -15,6 +15,7 @@ namespace foothold {
 
 /// Pixels that share a depth range; small, so that the range is tight.
 inline constexpr int kRangeTilePx = 4;
+
 FOOTHOLD_HD inline std::int32_t float_bits(float value) {
   std::int32_t bits = 0;
   memcpy(&bits, &value, sizeof(bits));

@@ -15,14 +15,10 @@ namespace {
 constexpr float kConfidentWithinM = 0.10F;
 constexpr float kConfidentWithinDeg = 10.0F;
 
-/// Alignment that ends at the level of the pyramid whose pixels match those of an image reduced by a divisor, and begins one above.
-IcpSettings at_divisor(IcpSettings settings, int divisor) {
-  constexpr int kMostLevels = 6;
-  const int level = static_cast<int>(std::lround(std::log2(static_cast<double>(divisor))));
-  settings.finest_level = std::min(level, kMostLevels - 1);
-  settings.coarsest_level = settings.finest_level + 1;
-  return settings;
-}
+bool is_same(const SE3& a, const SE3& b) { return is_near(a, b, kSamePoseM, kSamePoseDeg); }
+
+/// Distance between starts along the loosest direction [m] (T: relocalisation_benchmark, kitchen).
+constexpr float kSlideStepM = 0.15F;
 
 /// Of acceptance_features().
 constexpr std::size_t kColourFeature = 5;
@@ -48,8 +44,6 @@ RenderCamera reduced_camera(const Frame& frame, int divisor) {
 
 void PoseRefinerSettings::validate() const {
   validate_settings(*this);
-  icp.validate();
-  check.validate();
   if (fine_divisor > coarse_divisor) {
     throw InvalidSettings("setting fine_divisor: got " + std::to_string(fine_divisor) + ", expected at most coarse_divisor, " +
                           std::to_string(coarse_divisor));
@@ -74,14 +68,15 @@ std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names() {
           "log_det_valid", "residual",  "inlier_fraction"};
 }
 
-PoseRefiner::PoseRefiner(const Context& context, const PoseRefinerSettings& settings, const ClassifierModel& classifier)
+PoseRefiner::PoseRefiner(const Context& context, const PoseRefinerSettings& settings, const DepthRange& range,
+                         const ClassifierModel& classifier)
     : context_(context),
       settings_(settings),
       classifier_(with_lenient_poor_threshold(classifier)),
       raycaster_(context),
-      coarse_icp_(context, at_divisor(settings.icp, settings.coarse_divisor)),
-      fine_icp_(context, at_divisor(settings.icp, settings.fine_divisor)),
-      comparer_(context, settings.check),
+      coarse_icp_(context, IcpLevels::for_divisor(settings.coarse_divisor), range),
+      fine_icp_(context, IcpLevels::for_divisor(settings.fine_divisor), range),
+      comparer_(context, range),
       map_(context.memory()),
       proposals_(context.memory()) {
   settings.validate();
@@ -105,13 +100,11 @@ bool PoseRefiner::is_rival(const RefinedPose& other, const RefinedPose& best) co
 
 float PoseRefiner::acceptance_probability() const { return classifier_.probability(classifier_.good_threshold); }
 
-bool PoseRefiner::is_same(const SE3& a, const SE3& b) const { return is_near(a, b, settings_.same_pose_m, settings_.same_pose_deg); }
-
 RefinedPose PoseRefiner::rate(const TrackingMeasures& measures, const ViewAgreement& agreement) const {
   RefinedPose result;
   result.measures = measures;
   result.agreement = agreement;
-  if (!measures.well_posed || agreement.overlap < settings_.min_overlap) {
+  if (!measures.well_posed || agreement.overlap < kMinOverlap) {
     result.score = -std::numeric_limits<float>::infinity();
     return result;
   }
@@ -232,9 +225,9 @@ std::vector<RefinedPose> PoseRefiner::refine_ranked(const Frame& frame, const Ts
 std::vector<PoseEstimate> PoseRefiner::slide(const RefinedPose& pose) const {
   std::vector<PoseEstimate> starts;
   if (pose.loosest_world.isZero()) return starts;
-  const int num_steps = static_cast<int>(std::lround(settings_.slide_reach_m / settings_.slide_step_m));
+  const int num_steps = static_cast<int>(std::lround(settings_.slide_reach_m / kSlideStepM));
   for (int i = 1; i <= num_steps; ++i) {
-    const Eigen::Vector3f offset_world = static_cast<float>(i) * settings_.slide_step_m * pose.loosest_world;
+    const Eigen::Vector3f offset_world = static_cast<float>(i) * kSlideStepM * pose.loosest_world;
     for (const Eigen::Vector3f& offset : {offset_world, Eigen::Vector3f(-offset_world)}) {
       starts.push_back({pose.world_from_camera, 0.0F});
       starts.back().world_from_camera.translation += offset;

@@ -5,7 +5,7 @@
 namespace foothold {
 
 RefiningRelocaliser::RefiningRelocaliser(Relocaliser& inner, const TsdfVolume& volume, const PoseRefinerSettings& settings)
-    : inner_(inner), volume_(volume), refiner_(volume.context(), settings) {}
+    : inner_(inner), volume_(volume), refiner_(volume.context(), settings, volume.settings().depth_range()) {}
 
 std::vector<PoseEstimate> RefiningRelocaliser::relocalise(const Frame& frame) {
   const std::vector<PoseEstimate> proposals = inner_.relocalise(frame);

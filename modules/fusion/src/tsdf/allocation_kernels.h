@@ -5,6 +5,7 @@
 
 #include "foothold/base/camera.h"
 #include "foothold/base/se3.h"
+#include "foothold/fusion/tsdf_volume.h"
 #include "tsdf/device_atomics.h"
 #include "tsdf/tsdf_view.h"
 
@@ -15,10 +16,7 @@ struct PosedDepth {
   ImageView<const float> depth;
   Intrinsics intrinsics;
   SE3 world_from_camera;
-  float min_depth_m = 0.0F;
-  float max_depth_m = 0.0F;
-
-  FOOTHOLD_HD bool usable(float depth_m) const { return depth_m >= min_depth_m && depth_m <= max_depth_m; }
+  DepthRange range;
 };
 
 /// A hash table of the keys that a frame wants, in which each is claimed by one of the samples that want it.
@@ -52,7 +50,7 @@ struct CollectWantedBlocks {
     const int u = static_cast<int>(sample) % num_columns * stride_px;
     const int v = static_cast<int>(sample) / num_columns * stride_px;
     const float depth_m = camera.depth(u, v);
-    const bool usable = camera.usable(depth_m);
+    const bool usable = camera.range.holds(depth_m);
     const float band_step_m = 2.0F * volume.truncation_m / static_cast<float>(num_steps - 1);
     std::uint64_t last = kNoKey;
     for (int k = 0; k < num_steps; ++k) {

@@ -27,7 +27,7 @@ struct FindTileDepths {
     for (int v = v0; v < v1; ++v) {
       for (int u = u0; u < u1; ++u) {
         const float depth_m = camera.depth(u, v);
-        const float candidate_m = camera.usable(depth_m) ? depth_m : 0.0F;
+        const float candidate_m = camera.range.holds(depth_m) ? depth_m : 0.0F;
         max_depth_m = candidate_m > max_depth_m ? candidate_m : max_depth_m;
       }
     }
@@ -95,7 +95,7 @@ struct IntegrateBlock {
     const Eigen::Vector3f half = Eigen::Vector3f::Constant(0.5F * side_m);
     const Eigen::Vector3f centre = camera_from_world * (corner_world + half);
     const BlockExtent extent = bound_projection(centre, kHalfDiagonal * side_m, camera.intrinsics, camera.depth.width, camera.depth.height);
-    if (!extent.visible() || extent.z_near > camera.max_depth_m + volume.truncation_m) return false;
+    if (!extent.visible() || extent.z_near > camera.range.max_m + volume.truncation_m) return false;
     for (int v = extent.v_min / kDepthTilePx; v <= extent.v_max / kDepthTilePx; ++v) {
       for (int u = extent.u_min / kDepthTilePx; u <= extent.u_max / kDepthTilePx; ++u) {
         const float depth_m = tile_depths_m[v * num_tile_columns + u];
@@ -116,8 +116,8 @@ struct IntegrateBlock {
     const int columns = camera.depth.width;
     const float* const depth = camera.depth.data;
     const float to_stored = kStoredOne / volume.truncation_m;
-    const float min_depth_m = camera.min_depth_m;
-    const float max_depth_m = camera.max_depth_m;
+    const float min_depth_m = camera.range.min_m;
+    const float max_depth_m = camera.range.max_m;
     std::int32_t pixels[kWidth];
     float z_m[kWidth];
     for (int i = 0; i < kWidth; ++i) {

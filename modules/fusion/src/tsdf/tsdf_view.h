@@ -13,9 +13,9 @@ namespace foothold {
 
 inline constexpr int kBlockSide = 8;
 inline constexpr int kBlockVoxels = kBlockSide * kBlockSide * kBlockSide;
-inline constexpr int kPageBits = 9;
 /// Voxels along each side of an eighth of a block, the unit of empty space.
 inline constexpr int kOctantSide = kBlockSide / 2;
+inline constexpr int kPageBits = 9;
 /// Blocks in one page of memory.
 inline constexpr int kPageBlocks = 1 << kPageBits;
 

@@ -156,7 +156,7 @@ IntegrationStats TsdfVolume::integrate(const Frame& frame, const SE3& world_from
   FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
   FOOTHOLD_EXPECTS(frame.depth.memory == context_.memory());
   FOOTHOLD_EXPECTS(is_rigid(world_from_camera, kRigidTolerance));
-  const PosedDepth camera{frame.depth, frame.calibration.depth, world_from_camera, settings_.min_depth_m, settings_.max_depth_m};
+  const PosedDepth camera{frame.depth, frame.calibration.depth, world_from_camera, settings_.depth_range()};
   IntegrationStats stats;
   {
     const ScopedStage stage(context_, "fusion/allocate");

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "foothold/base/error.h"
 #include "foothold/base/exec/dispatch.h"
 #include "view/view_comparer_kernels.h"
 
@@ -14,18 +13,8 @@ namespace foothold {
 extern template struct ViewAlgorithms<CudaExecutor>;
 #endif
 
-void ViewComparerSettings::validate() const {
-  validate_settings(*this);
-  if (min_depth_m >= max_depth_m) {
-    throw InvalidSettings("setting min_depth_m: got " + detail::to_text(min_depth_m) + ", expected less than max_depth_m, " +
-                          detail::to_text(max_depth_m));
-  }
-}
-
-ViewComparer::ViewComparer(const Context& context, const ViewComparerSettings& settings)
-    : context_(context), settings_(settings), scratch_(std::make_unique<Scratch>(context.memory())) {
-  settings.validate();
-}
+ViewComparer::ViewComparer(const Context& context, const DepthRange& range)
+    : context_(context), range_(range), scratch_(std::make_unique<Scratch>(context.memory())) {}
 ViewComparer::~ViewComparer() = default;
 ViewComparer::ViewComparer(ViewComparer&&) noexcept = default;
 ViewComparer& ViewComparer::operator=(ViewComparer&&) noexcept = default;
@@ -34,29 +23,29 @@ void ViewComparer::set_frame(const Frame& frame) {
   FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
   FOOTHOLD_EXPECTS(frame.depth.memory == context_.memory());
   Scratch& scratch = *scratch_;
-  const auto stride = static_cast<float>(settings_.stride_px);
-  const auto offset = static_cast<float>(settings_.stride_px / 2);
+  const auto stride = static_cast<float>(kViewStridePx);
+  const auto offset = static_cast<float>(kViewStridePx / 2);
   const Intrinsics& k = frame.calibration.depth;
-  scratch.width = frame.depth.width / settings_.stride_px;
-  scratch.height = frame.depth.height / settings_.stride_px;
+  scratch.width = frame.depth.width / kViewStridePx;
+  scratch.height = frame.depth.height / kViewStridePx;
   scratch.intrinsics = {k.fx / stride, k.fy / stride, (k.cx - offset) / stride, (k.cy - offset) / stride};
   scratch.pixels.resize(static_cast<std::size_t>(scratch.width) * static_cast<std::size_t>(scratch.height));
-  dispatch(context_, [&](auto on) { ViewAlgorithms<typename decltype(on)::Executor>::sample_frame(context_, frame, settings_, scratch); });
+  dispatch(context_, [&](auto on) { ViewAlgorithms<typename decltype(on)::Executor>::sample_frame(context_, frame, range_, scratch); });
 }
 
 namespace {
 /// The correlation; 0 if either variable hardly varies, since there is noise then rather than a pattern.
-float correlation(const CheckMoments& moments, double min_deviation) {
+float correlation(const ViewMoments& moments, double min_deviation) {
   const double floor = min_deviation * min_deviation * moments.count;
   if (!(moments.live_variance > floor && moments.model_variance > floor)) return 0.0F;
   return static_cast<float>(moments.covariance / std::sqrt(moments.live_variance * moments.model_variance));
 }
 
-ViewAgreement summarise(const CheckTotals& totals) {
+ViewAgreement summarise(const ViewTotals& totals) {
   // Standard deviation of grey in [0, 1] below which a view counts as without shades, or without texture.
   constexpr double kMinShade = 0.01;
   constexpr double kMinTexture = 0.004;
-  const double(&sums)[kNumCheckSums] = totals.sums;
+  const double(&sums)[kNumViewSums] = totals.sums;
   const auto part = [](double count, double of) { return of > 0.0 ? static_cast<float>(count / of) : 0.0F; };
   ViewAgreement result;
   result.num_valid = static_cast<int>(sums[kValid]);
@@ -84,7 +73,7 @@ void ViewComparer::compare_all(const SurfaceMap& models, const Array<SE3>& world
   FOOTHOLD_EXPECTS(!models.empty() && models.pixels.memory() == context_.memory());
   FOOTHOLD_EXPECTS(world_from_cameras.size() == models.num_renderings() && world_from_cameras.memory() == context_.memory());
   dispatch(context_, [&](auto on) {
-    ViewAlgorithms<typename decltype(on)::Executor>::compare(context_, models, world_from_cameras.data(), settings_, *scratch_);
+    ViewAlgorithms<typename decltype(on)::Executor>::compare(context_, models, world_from_cameras.data(), *scratch_);
   });
 }
 
@@ -92,7 +81,7 @@ void ViewComparer::queue_results(HostReads& reads) { reads.add(scratch_->totals,
 
 std::vector<ViewAgreement> ViewComparer::results() const {
   std::vector<ViewAgreement> results;
-  for (const CheckTotals& totals : scratch_->host_totals) results.push_back(summarise(totals));
+  for (const ViewTotals& totals : scratch_->host_totals) results.push_back(summarise(totals));
   return results;
 }
 

@@ -22,17 +22,15 @@ struct SampleFrame {
   Intrinsics depth_intrinsics;
   Intrinsics colour_intrinsics;
   SE3 colour_from_depth;
-  int stride_px;
   int width;
-  float min_depth_m;
-  float max_depth_m;
-  CheckPixel* pixels;
+  DepthRange range;
+  ViewPixel* pixels;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
-    const int u = static_cast<int>(i) % width * stride_px + stride_px / 2;
-    const int v = static_cast<int>(i) / width * stride_px + stride_px / 2;
+    const int u = static_cast<int>(i) % width * kViewStridePx + kViewStridePx / 2;
+    const int v = static_cast<int>(i) / width * kViewStridePx + kViewStridePx / 2;
     const float depth_m = depth(u, v);
-    const bool usable = depth_m >= min_depth_m && depth_m <= max_depth_m;
+    const bool usable = range.holds(depth_m);
     pixels[i] = {usable ? depth_m : 0.0F, usable ? grey_at(u, v, depth_m) : -1.0F};
   }
 
@@ -45,8 +43,8 @@ struct SampleFrame {
     // The mean over the pixels that this one stands for: renderings are smooth, and single pixels would alias.
     float sum = 0.0F;
     int count = 0;
-    for (int y = cv - stride_px / 2; y <= cv + (stride_px - 1) / 2; ++y) {
-      for (int x = cu - stride_px / 2; x <= cu + (stride_px - 1) / 2; ++x) {
+    for (int y = cv - kViewStridePx / 2; y <= cv + (kViewStridePx - 1) / 2; ++y) {
+      for (int x = cu - kViewStridePx / 2; x <= cu + (kViewStridePx - 1) / 2; ++x) {
         if (x < 0 || y < 0 || x >= colour.width || y >= colour.height) continue;
         sum += grey_of(colour(x, y));
         ++count;
@@ -59,8 +57,11 @@ struct SampleFrame {
 /// Compares one tile of the frame with one rendering; its sums stay apart, so that texture can be told from shade.
 struct CompareTile {
   static constexpr int kSide = 8;
+  /// Depths that differ by at most kToleranceM + kToleranceGrowth * z^2 agree [m]: a Kinect's noise (T: train_quality_gate).
+  static constexpr float kToleranceM = 0.02F;
+  static constexpr float kToleranceGrowth = 0.003F;
 
-  const CheckPixel* pixels;
+  const ViewPixel* pixels;
   int width;
   int height;
   int num_columns;  ///< of tiles
@@ -73,8 +74,6 @@ struct CompareTile {
   int model_height;
   const SE3* world_from_models;
   const SE3* world_from_cameras;
-  float tolerance_m;
-  float tolerance_growth;
   float* tile_sums;
 
   template <class Team>
@@ -83,7 +82,7 @@ struct CompareTile {
     const int tile = static_cast<int>(item) % num_tiles;
     const SE3 model_from_camera = world_from_models[comparison].inverse() * world_from_cameras[comparison];
     const int first_pixel = comparison * model_width * model_height;
-    float sums[kNumCheckSums] = {};
+    float sums[kNumViewSums] = {};
     const int u0 = tile % num_columns * kSide;
     const int v0 = tile / num_columns * kSide;
     for (int i = team.lane(); i < kSide * kSide; i += team.size()) {
@@ -92,11 +91,11 @@ struct CompareTile {
       if (u < width && v < height) add(model_from_camera, first_pixel, u, v, sums);
     }
     team.sum_all(sums);
-    for (int j = team.lane(); j < kNumCheckSums; j += team.size()) tile_sums[item * kNumCheckSums + static_cast<std::size_t>(j)] = sums[j];
+    for (int j = team.lane(); j < kNumViewSums; j += team.size()) tile_sums[item * kNumViewSums + static_cast<std::size_t>(j)] = sums[j];
   }
 
-  FOOTHOLD_HD void add(const SE3& model_from_camera, int first_pixel, int live_u, int live_v, float (&sums)[kNumCheckSums]) const {
-    const CheckPixel live = pixels[live_v * width + live_u];
+  FOOTHOLD_HD void add(const SE3& model_from_camera, int first_pixel, int live_u, int live_v, float (&sums)[kNumViewSums]) const {
+    const ViewPixel live = pixels[live_v * width + live_u];
     if (live.depth_m <= 0.0F) return;
     sums[kValid] += 1.0F;
     const Eigen::Vector3f point =
@@ -109,7 +108,7 @@ struct CompareTile {
     const float depth_m = models[model_pixel].depth_m;
     if (depth_m <= 0.0F) return;
     sums[kOverlap] += 1.0F;
-    const float tolerance = tolerance_m + tolerance_growth * depth_m * depth_m;
+    const float tolerance = kToleranceM + kToleranceGrowth * depth_m * depth_m;
     const float difference = (point.z() - depth_m) / tolerance;
     const float magnitude = std::abs(difference);
     sums[kDifference] += magnitude < 3.0F ? magnitude : 3.0F;
@@ -135,27 +134,27 @@ struct CompareTile {
 struct TotalTiles {
   const float* tile_sums;
   int num_tiles;
-  CheckTotals* totals;
+  ViewTotals* totals;
 
   template <class Team>
   FOOTHOLD_HD void operator()(const Team& team, std::size_t comparison) const {
     constexpr int kNumMoments = 4;
-    double sums[kNumCheckSums + kNumMoments] = {};
-    const float* const first = tile_sums + comparison * static_cast<std::size_t>(num_tiles) * kNumCheckSums;
+    double sums[kNumViewSums + kNumMoments] = {};
+    const float* const first = tile_sums + comparison * static_cast<std::size_t>(num_tiles) * kNumViewSums;
     for (int tile = team.lane(); tile < num_tiles; tile += team.size()) {
-      const float* const of_tile = first + tile * kNumCheckSums;
-      for (int j = 0; j < kNumCheckSums; ++j) sums[j] += static_cast<double>(of_tile[j]);
-      add_moments(of_tile, sums + kNumCheckSums);
+      const float* const of_tile = first + tile * kNumViewSums;
+      for (int j = 0; j < kNumViewSums; ++j) sums[j] += static_cast<double>(of_tile[j]);
+      add_moments(of_tile, sums + kNumViewSums);
     }
     team.sum_all(sums);
     if (team.lane() != 0) return;
-    CheckTotals& result = totals[comparison];
-    for (int j = 0; j < kNumCheckSums; ++j) result.sums[j] = sums[j];
-    result.texture = {sums[kNumCheckSums], sums[kNumCheckSums + 1], sums[kNumCheckSums + 2], sums[kNumCheckSums + 3]};
+    ViewTotals& result = totals[comparison];
+    for (int j = 0; j < kNumViewSums; ++j) result.sums[j] = sums[j];
+    result.texture = {sums[kNumViewSums], sums[kNumViewSums + 1], sums[kNumViewSums + 2], sums[kNumViewSums + 3]};
   }
 
   FOOTHOLD_HD static void add_moments(const float* of_tile, double* moments) {
-    const CheckMoments own = moments_of(of_tile);
+    const ViewMoments own = moments_of(of_tile);
     moments[0] += own.count;
     moments[1] += own.live_variance;
     moments[2] += own.model_variance;
@@ -168,38 +167,34 @@ template <class Executor>
 struct ViewAlgorithms {
   using Scratch = ViewComparer::Scratch;
 
-  static void sample_frame(const Context& context, const Frame& frame, const ViewComparerSettings& settings, Scratch& scratch);
+  static void sample_frame(const Context& context, const Frame& frame, const DepthRange& range, Scratch& scratch);
   /// Leaves the totals of the frame's comparison with each rendering, each from a pose of its own, in `scratch`.
-  static void compare(const Context& context, const SurfaceMap& models, const SE3* world_from_cameras, const ViewComparerSettings& settings,
-                      Scratch& scratch);
+  static void compare(const Context& context, const SurfaceMap& models, const SE3* world_from_cameras, Scratch& scratch);
 };
 
 template <class Executor>
-void ViewAlgorithms<Executor>::sample_frame(const Context& context, const Frame& frame, const ViewComparerSettings& settings,
-                                            Scratch& scratch) {
+void ViewAlgorithms<Executor>::sample_frame(const Context& context, const Frame& frame, const DepthRange& range, Scratch& scratch) {
   const Executor exec(context);
-  exec.for_each(scratch.pixels.size(), SampleFrame{frame.depth, frame.colour, frame.calibration.depth, frame.calibration.colour,
-                                                   frame.calibration.depth_from_colour.inverse(), settings.stride_px, scratch.width,
-                                                   settings.min_depth_m, settings.max_depth_m, scratch.pixels.data()});
+  exec.for_each(scratch.pixels.size(),
+                SampleFrame{frame.depth, frame.colour, frame.calibration.depth, frame.calibration.colour,
+                            frame.calibration.depth_from_colour.inverse(), scratch.width, range, scratch.pixels.data()});
 }
 
 template <class Executor>
-void ViewAlgorithms<Executor>::compare(const Context& context, const SurfaceMap& models, const SE3* world_from_cameras,
-                                       const ViewComparerSettings& settings, Scratch& scratch) {
+void ViewAlgorithms<Executor>::compare(const Context& context, const SurfaceMap& models, const SE3* world_from_cameras, Scratch& scratch) {
   const Executor exec(context);
   const int num_columns = (scratch.width + CompareTile::kSide - 1) / CompareTile::kSide;
   const int num_rows = (scratch.height + CompareTile::kSide - 1) / CompareTile::kSide;
   const int num_tiles = num_columns * num_rows;
   const std::size_t num_comparisons = models.num_renderings();
   const std::size_t num_teams = num_comparisons * static_cast<std::size_t>(num_tiles);
-  scratch.tile_sums.resize(num_teams * kNumCheckSums);
+  scratch.tile_sums.resize(num_teams * kNumViewSums);
   scratch.totals.resize(num_comparisons);
   float* const tile_sums = scratch.tile_sums.data();
-  exec.for_each_team(num_teams,
-                     CompareTile{scratch.pixels.data(), scratch.width, scratch.height, num_columns, num_tiles, scratch.intrinsics,
-                                 models.pixels.data(), models.colours.empty() ? nullptr : models.colours.data(), models.camera.intrinsics,
-                                 models.camera.width, models.camera.height, models.world_from_cameras.data(), world_from_cameras,
-                                 settings.tolerance_m, settings.tolerance_growth, tile_sums});
+  exec.for_each_team(
+      num_teams, CompareTile{scratch.pixels.data(), scratch.width, scratch.height, num_columns, num_tiles, scratch.intrinsics,
+                             models.pixels.data(), models.colours.empty() ? nullptr : models.colours.data(), models.camera.intrinsics,
+                             models.camera.width, models.camera.height, models.world_from_cameras.data(), world_from_cameras, tile_sums});
   exec.for_each_team(num_comparisons, TotalTiles{tile_sums, num_tiles, scratch.totals.data()});
 }
 

@@ -9,31 +9,20 @@
 
 namespace foothold {
 
+/// Every so many pixels of the frame are compared, in both directions (T: train_quality_gate).
+inline constexpr int kViewStridePx = 4;
+
 /// One compared pixel: depth [m], and grey in [0, 1] or -1 where the colour camera did not see the point.
-struct CheckPixel {
+struct ViewPixel {
   float depth_m;
   float grey;
 };
 
 /// What is summed over the pixels of a tile. From kColours on: over agreeing pixels with colour on both sides.
-enum CheckSum {
-  kValid,
-  kOverlap,
-  kAgree,
-  kFront,
-  kBehind,
-  kDifference,
-  kColours,
-  kLive,
-  kModel,
-  kLive2,
-  kModel2,
-  kLiveModel,
-  kNumCheckSums
-};
+enum ViewSum { kValid, kOverlap, kAgree, kFront, kBehind, kDifference, kColours, kLive, kModel, kLive2, kModel2, kLiveModel, kNumViewSums };
 
 /// The moments of two variables over pixels, each about the mean of its part of them.
-struct CheckMoments {
+struct ViewMoments {
   double count;
   double live_variance;  ///< times count, as the other two
   double model_variance;
@@ -41,15 +30,15 @@ struct CheckMoments {
 };
 
 /// What a comparison sums over a frame.
-struct CheckTotals {
-  double sums[kNumCheckSums];
-  CheckMoments texture;  ///< about the means of tiles
+struct ViewTotals {
+  double sums[kNumViewSums];
+  ViewMoments texture;  ///< about the means of tiles
 };
-static_assert(sizeof(CheckTotals) == 8 * (kNumCheckSums + 4), "copied from the device");
+static_assert(sizeof(ViewTotals) == 8 * (kNumViewSums + 4), "copied from the device");
 
 /// The moments of some sums about their own means; nothing without pixels.
 template <class T>
-FOOTHOLD_HD CheckMoments moments_of(const T* sums) {
+FOOTHOLD_HD ViewMoments moments_of(const T* sums) {
   const double n = static_cast<double>(sums[kColours]);
   if (n < 1.0) return {};
   const double live = static_cast<double>(sums[kLive]);
@@ -64,11 +53,11 @@ struct ViewComparer::Scratch {
   Intrinsics intrinsics;  ///< of the reduced image
   int width = 0;
   int height = 0;
-  Array<CheckPixel> pixels;
+  Array<ViewPixel> pixels;
   Array<SE3> pose;         ///< of a single comparison
   Array<float> tile_sums;  ///< by comparison, then by tile
-  Array<CheckTotals> totals;
-  std::vector<CheckTotals> host_totals;  ///< what queue_results() asked for
+  Array<ViewTotals> totals;
+  std::vector<ViewTotals> host_totals;  ///< what queue_results() asked for
 };
 
 }  // namespace foothold

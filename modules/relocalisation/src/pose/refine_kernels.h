@@ -64,7 +64,7 @@ inline constexpr int kNumRefinementSums = kNumHessian + 6 + 1;
 FOOTHOLD_HD inline bool solve_for_twist(const float* sums, float damping, float* twist) {
   constexpr double kSmallestPivot = 1e-9;
   double x[6];
-  if (!solve_damped(sums, static_cast<double>(damping), kSmallestPivot, 6, x)) return false;
+  if (!solve_damped(sums, static_cast<double>(damping), kSmallestPivot, x)) return false;
   for (int k = 0; k < 6; ++k) twist[k] = static_cast<float>(x[k]);
   return true;
 }

@@ -13,7 +13,6 @@ namespace foothold {
 
 struct FusionSettings {
   TsdfSettings volume;
-  IcpSettings icp;
   RecoverySettings recovery;
   PoseRefinerSettings refiner;
   /// The map is rendered for tracking in images reduced by this divisor.
@@ -29,7 +28,6 @@ struct FusionSettings {
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&FusionSettings::volume, "volume");
-    v(&FusionSettings::icp, "icp");
     v(&FusionSettings::recovery, "recovery");
     v(&FusionSettings::refiner, "refiner");
     v(&FusionSettings::render_divisor, "render_divisor",

@@ -8,60 +8,17 @@
 
 #include "foothold/api/frame.h"
 #include "foothold/base/array.h"
-#include "foothold/base/settings.h"
 #include "foothold/fusion/raycaster.h"
 
 namespace foothold {
 
-/// How a depth image is aligned with the map. Level l of the pyramid is the image halved l times.
-struct IcpSettings {
-  /// Level at which alignment begins.
-  int coarsest_level = 3;
-  /// Level at which alignment ends.
-  int finest_level = 2;
-  /// Steps at the coarsest level; the levels between are interpolated.
-  int coarsest_steps = 10;
-  /// Steps at the finest level.
-  int finest_steps = 10;
-  /// Solve for rotation alone at the coarsest level.
-  bool rotation_first = false;
-  /// Distance at which a residual counts as an outlier [m], at the coarsest level and 1 m of depth.
-  float coarsest_outlier_m = 0.15F;
-  /// The same at the finest level.
-  float finest_outlier_m = 0.01F;
-  /// Growth of the outlier distance with depth z [m]: 1 + growth * z^2.
-  float outlier_growth = 0.3F;
-  /// Growth of the assumed noise with depth, likewise: residuals are weighted by its inverse square.
-  float noise_growth = 4.0F;
-  /// Depth readings outside [min_depth_m, max_depth_m] are ignored.
-  float min_depth_m = 0.2F;
-  float max_depth_m = 5.0F;
-  /// A step shorter than this ends its level: rotation [rad] and translation [m] together.
-  float converged_step = 1e-4F;
+/// The levels of the pyramid that alignment goes through, from coarse to fine. Level l is the image halved l times.
+struct IcpLevels {
+  int coarsest = 3;
+  int finest = 2;
 
-  template <class Visitor>
-  static void fields(Visitor& v) {
-    v(&IcpSettings::coarsest_level, "coarsest_level", "Level of the pyramid at which alignment begins (R).", Range{0, 6});
-    v(&IcpSettings::finest_level, "finest_level", "Level of the pyramid at which alignment ends (T: fusion_benchmark, kitchen).",
-      Range{0, 6});
-    v(&IcpSettings::coarsest_steps, "coarsest_steps", "Steps at the coarsest level (R).", Range{1, 100});
-    v(&IcpSettings::finest_steps, "finest_steps", "Steps at the finest level (T: fusion_benchmark, office with exact poses).",
-      Range{1, 100});
-    v(&IcpSettings::rotation_first, "rotation_first", "Solve for rotation alone at the coarsest level (T: fusion_benchmark, kitchen).");
-    v(&IcpSettings::coarsest_outlier_m, "coarsest_outlier_m", "Outlier distance at the coarsest level [m] (T: fusion_benchmark, kitchen).",
-      Range{1e-3, 1.0});
-    v(&IcpSettings::finest_outlier_m, "finest_outlier_m", "Outlier distance at the finest level [m] (T: fusion_benchmark, kitchen).",
-      Range{1e-3, 1.0});
-    v(&IcpSettings::outlier_growth, "outlier_growth",
-      "Growth of the outlier distance with squared depth [1/m^2] (T: fusion_benchmark, kitchen).", Range{0.0, 100.0});
-    v(&IcpSettings::noise_growth, "noise_growth", "Growth of the assumed noise with squared depth [1/m^2] (T: fusion_benchmark, kitchen).",
-      Range{0.0, 100.0});
-    v(&IcpSettings::min_depth_m, "min_depth_m", "Nearer depth is ignored [m] (R).", Range{0.01, 10.0});
-    v(&IcpSettings::max_depth_m, "max_depth_m", "Farther depth is ignored [m] (T: fusion_benchmark, kitchen).", Range{0.1, 100.0});
-    v(&IcpSettings::converged_step, "converged_step", "A shorter step ends its level (T: fusion_benchmark, kitchen).", Range{0.0, 1.0});
-  }
-  /// Throws InvalidSettings naming the field, its value and its range.
-  void validate() const;
+  /// Two levels, of which the finest has the pixels of an image reduced by a divisor.
+  static IcpLevels for_divisor(int divisor);
 };
 
 /// What alignment says about itself; grade_tracking() goes by it. Reference: [Prisacariu2017] Sec. 4.
@@ -71,7 +28,7 @@ struct TrackingMeasures {
   /// log det(H n / N_valid): the same over the pixels with depth.
   float log_det_valid = 0.0F;
   /// Root of the mean robust squared residual [m] of the pixels that land on mapped surface, those without a partner counting as
-  /// coarsest_outlier_m. Where nothing is mapped, nothing can disagree; but less than a fifth of the pixels with depth counts as a fifth,
+  /// 0.15 m. Where nothing is mapped, nothing can disagree; but less than a fifth of the pixels with depth counts as a fifth,
   /// the rest of it without partners.
   float residual_m = 0.0F;
   /// Part of those pixels that found a partner, n / max(N_mapped, N_valid / 5).
@@ -103,8 +60,8 @@ class IcpTracker {
  public:
   struct Scratch;  ///< buffers of the implementation
 
-  /// @throws InvalidSettings
-  explicit IcpTracker(const Context& context, const IcpSettings& settings = {});
+  /// @pre 0 <= levels.finest <= levels.coarsest <= 6.
+  explicit IcpTracker(const Context& context, const IcpLevels& levels = {}, const DepthRange& range = TsdfSettings{}.depth_range());
   ~IcpTracker();
   IcpTracker(IcpTracker&&) noexcept;
   IcpTracker& operator=(IcpTracker&&) noexcept;
@@ -131,11 +88,10 @@ class IcpTracker {
   /// One for each rendering; see track().
   std::vector<TrackingResult> results() const;
 
-  const IcpSettings& settings() const { return settings_; }
-
  private:
   Context context_;
-  IcpSettings settings_;
+  IcpLevels levels_;
+  DepthRange range_;
   std::unique_ptr<Scratch> scratch_;
 };
 

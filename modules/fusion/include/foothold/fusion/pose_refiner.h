@@ -20,9 +20,6 @@ struct PoseRefinerSettings {
   int max_candidates = 16;
   /// Of those, how many are refined to the end.
   int num_finalists = 3;
-  /// Proposals and results nearer than this count as one.
-  float same_pose_m = 0.05F;
-  float same_pose_deg = 5.0F;
   /// First, candidates are aligned and ranked in images reduced by this divisor.
   int coarse_divisor = 8;
   /// Finalists are aligned and rated in images reduced by this divisor.
@@ -30,42 +27,30 @@ struct PoseRefinerSettings {
   /// A second, different pose that is good enough, too, must leave at least this many times as much of the texture unexplained (1 less its
   /// correlation) as the best, or the place is ambiguous and neither is believed.
   float ambiguity_ratio = 2.0F;
-  /// Poses from which less than this part of the frame falls on the map are refused outright: what little there is agrees easily.
-  float min_overlap = 0.2F;
   /// However sure a relocaliser is of a proposal, it counts as evidence of this probability at most: equal furniture deceives it, too.
   /// 0.5 leaves the decision to the map alone.
   float max_trust = 0.97F;
-  /// Where nothing is good enough, starts at this distance from one another, up to this far from the best pose, are tried along the
-  /// translation that its surfaces resist least: a view half of which is unmapped slides along a table until all of it is mapped.
-  float slide_step_m = 0.15F;
+  /// Where nothing is good enough, starts up to this far from the best pose are tried along the translation that its surfaces resist least:
+  /// a view half of which is unmapped slides along a table until all of it is mapped.
   float slide_reach_m = 1.2F;
-  IcpSettings icp;
-  ViewComparerSettings check;
 
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&PoseRefinerSettings::max_candidates, "max_candidates", "Proposals that are looked at (R).", Range{1, 1000});
     v(&PoseRefinerSettings::num_finalists, "num_finalists", "Proposals that are refined to the end, at most (T: replay_sequence, kitchen).",
       Range{1, 1000});
-    v(&PoseRefinerSettings::same_pose_m, "same_pose_m", "Poses nearer than this and same_pose_deg are one [m].", Range{0.0, 1.0});
-    v(&PoseRefinerSettings::same_pose_deg, "same_pose_deg", "Poses nearer than this and same_pose_m are one [deg].", Range{0.0, 90.0});
     v(&PoseRefinerSettings::coarse_divisor, "coarse_divisor",
       "Reduction of the images in which all candidates are ranked (T: replay_sequence, kitchen).", Range{1, 32});
     v(&PoseRefinerSettings::fine_divisor, "fine_divisor",
       "Reduction of the images in which finalists are rated (T: replay_sequence, kitchen).", Range{1, 32});
     v(&PoseRefinerSettings::ambiguity_ratio, "ambiguity_ratio",
       "Lead in unexplained texture over the next different pose (T: relocalisation_benchmark, stairs).", Range{1.0, 100.0});
-    v(&PoseRefinerSettings::min_overlap, "min_overlap", "Part of the frame that must fall on the map (T: train_quality_gate; R: 0.1).",
-      Range{0.0, 1.0});
     v(&PoseRefinerSettings::max_trust, "max_trust",
       "Most that a relocaliser's confidence counts for; 0.5 for nothing (T: relocalisation_benchmark, kitchen, teddy and rooms).",
       Range{0.5, 0.999});
-    v(&PoseRefinerSettings::slide_step_m, "slide_step_m",
-      "Distance of the starts along the loosest direction [m] (T: relocalisation_benchmark, kitchen).", Range{0.01, 1.0});
     v(&PoseRefinerSettings::slide_reach_m, "slide_reach_m",
-      "How far these go, to both sides [m]; 0 for none (T: relocalisation_benchmark, kitchen).", Range{0.0, 10.0});
-    v(&PoseRefinerSettings::icp, "icp");
-    v(&PoseRefinerSettings::check, "check");
+      "How far from the best pose, to both sides, others are tried [m]; 0 for none (T: relocalisation_benchmark, kitchen).",
+      Range{0.0, 10.0});
   }
   void validate() const;
 };
@@ -82,6 +67,14 @@ struct RefinedPose {
   /// Of TrackingResult: the direction in which alignment may have gone astray.
   Eigen::Vector3f loosest_world = Eigen::Vector3f::Zero();
 };
+
+/// Poses this near to one another are one: the error at which the papers of the field call a relocalisation right.
+inline constexpr float kSamePoseM = 0.05F;
+inline constexpr float kSamePoseDeg = 5.0F;
+
+/// Poses from which less than this part of the frame falls on the map are refused outright: what little there is agrees easily (T:
+/// train_quality_gate; R: 0.1).
+inline constexpr float kMinOverlap = 0.2F;
 
 inline constexpr std::size_t kNumAcceptanceFeatures = 10;
 
@@ -102,8 +95,9 @@ std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names();
 /// hopeless ones are refined, too, and as often again for what slides. Memory for max_candidates coarse and num_finalists fine renderings.
 class PoseRefiner {
  public:
-  /// @throws InvalidSettings
+  /// @param range  As of the volume that poses are refined on. @throws InvalidSettings
   explicit PoseRefiner(const Context& context, const PoseRefinerSettings& settings = {},
+                       const DepthRange& range = TsdfSettings{}.depth_range(),
                        const ClassifierModel& classifier = default_acceptance_classifier());
 
   /// @return The finalists, best first: good ones by texture, then the rest by score. Only the first can be accepted. Empty without
@@ -139,7 +133,6 @@ class PoseRefiner {
   void attribute(Span<const PoseEstimate> proposals, int candidate, RefinedPose& pose) const;
   /// Rates what was aligned with the renderings in map_.
   std::vector<RefinedPose> rate_rendered(IcpTracker& aligned);
-  bool is_same(const SE3& a, const SE3& b) const;
   bool is_good(const RefinedPose& pose) const;
   bool is_better(const RefinedPose& a, const RefinedPose& b) const;
   bool is_rival(const RefinedPose& other, const RefinedPose& best) const;

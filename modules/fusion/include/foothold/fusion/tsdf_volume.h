@@ -13,12 +13,21 @@
 #include "foothold/api/relocaliser.h"
 #include "foothold/base/array.h"
 #include "foothold/base/context.h"
+#include "foothold/base/platform.h"
 #include "foothold/base/settings.h"
 
 namespace foothold {
 
 struct TsdfView;    // what kernels see of a volume; private
 struct VoxelBlock;  // 8 x 8 x 8 voxels; private
+
+/// The depth readings that count [m]; nearer and farther ones are ignored.
+struct DepthRange {
+  float min_m = 0.0F;
+  float max_m = 0.0F;
+
+  FOOTHOLD_HD bool holds(float depth_m) const { return depth_m >= min_m && depth_m <= max_m; }
+};
 
 /// Size and accuracy of the map.
 struct TsdfSettings {
@@ -28,9 +37,9 @@ struct TsdfSettings {
   float truncation_m = 0.06F;
   /// Observations averaged at most; fewer adapt faster to change, more average noise away.
   int max_weight = 255;
-  /// Nearer depth readings are ignored [m].
+  /// Nearer depth readings are ignored [m], by everything that uses the map.
   float min_depth_m = 0.2F;
-  /// Farther depth readings are ignored [m]: a structured-light camera's error grows with the square of depth.
+  /// Farther depth readings likewise [m]: a structured-light camera's error grows with the square of depth.
   float max_depth_m = 5.0F;
   /// Every so many pixels, in both directions, allocate the blocks along their ray.
   int allocation_stride_px = 4;
@@ -49,6 +58,7 @@ struct TsdfSettings {
       Range{1, 16});
     v(&TsdfSettings::max_blocks, "max_blocks", "Blocks of 8 x 8 x 8 voxels held at most, 3 KB each.", Range{1, 1 << 24});
   }
+  DepthRange depth_range() const { return {min_depth_m, max_depth_m}; }
   /// Throws InvalidSettings naming the field, its value and its range.
   void validate() const;
 };

@@ -8,32 +8,9 @@
 
 #include "foothold/api/frame.h"
 #include "foothold/base/array.h"
-#include "foothold/base/settings.h"
 #include "foothold/fusion/raycaster.h"
 
 namespace foothold {
-
-struct ViewComparerSettings {
-  /// Every so many pixels of the frame are compared, in both directions.
-  int stride_px = 4;
-  /// Depths that differ by at most base + growth * z^2 agree [m].
-  float tolerance_m = 0.02F;
-  float tolerance_growth = 0.003F;
-  /// Depth outside [min_depth_m, max_depth_m] is ignored.
-  float min_depth_m = 0.2F;
-  float max_depth_m = 5.0F;
-
-  template <class Visitor>
-  static void fields(Visitor& v) {
-    v(&ViewComparerSettings::stride_px, "stride_px", "Every so many pixels are compared (T: train_quality_gate).", Range{1, 64});
-    v(&ViewComparerSettings::tolerance_m, "tolerance_m", "Depths closer than this agree [m] (T: train_quality_gate).", Range{1e-3, 1.0});
-    v(&ViewComparerSettings::tolerance_growth, "tolerance_growth", "Growth of the tolerance with squared depth [1/m]: a Kinect's noise.",
-      Range{0.0, 1.0});
-    v(&ViewComparerSettings::min_depth_m, "min_depth_m", "Nearer depth is ignored [m] (R).", Range{0.01, 10.0});
-    v(&ViewComparerSettings::max_depth_m, "max_depth_m", "Farther depth is ignored [m].", Range{0.1, 100.0});
-  }
-  void validate() const;
-};
 
 /// How a frame compares with a rendering of the map. Fractions are of the compared pixels with depth.
 struct ViewAgreement {
@@ -50,15 +27,14 @@ struct ViewAgreement {
   float texture_correlation = 0.0F;
 };
 
-/// Compares frames with renderings, at a stride.
+/// Compares frames with renderings, at every fourth pixel in both directions.
 ///
 /// Determinism: sums over chunks of fixed size, combined in order.
 class ViewComparer {
  public:
   struct Scratch;  ///< buffers of the implementation
 
-  /// @throws InvalidSettings
-  explicit ViewComparer(const Context& context, const ViewComparerSettings& settings = {});
+  explicit ViewComparer(const Context& context, const DepthRange& range = TsdfSettings{}.depth_range());
   ~ViewComparer();
   ViewComparer(ViewComparer&&) noexcept;
   ViewComparer& operator=(ViewComparer&&) noexcept;
@@ -82,7 +58,7 @@ class ViewComparer {
 
  private:
   Context context_;
-  ViewComparerSettings settings_;
+  DepthRange range_;
   std::unique_ptr<Scratch> scratch_;
 };
 
