@@ -61,6 +61,8 @@ struct MeasureOffset {
                                             SurfaceOffset& sum) const {
     const int num_points = reservoirs.num_stored(leaf);
     const float inverse_radius2 = 1.0F / (radius_mm * radius_mm);
+    float factors[kReservoirBlockSize];
+    float offsets_mm[kReservoirBlockSize];
     float weights[kReservoirBlockSize] = {};
     float products[kReservoirBlockSize] = {};
     for (int first = 0; first < num_points; first += kReservoirBlockSize) {
@@ -72,9 +74,12 @@ struct MeasureOffset {
         const float dz = static_cast<float>(block.z_mm[w]) - p_mm.z();
         const float closeness = 1.0F - (dx * dx + dy * dy + dz * dz) * inverse_radius2;
         const float clipped = (closeness > 0.0F) & (w < num) ? closeness : 0.0F;
-        const float factor = clipped * clipped;
-        weights[w] += factor;
-        products[w] += factor * (n.x() * dx + n.y() * dy + n.z() * dz);
+        factors[w] = clipped * clipped;
+        offsets_mm[w] = n.x() * dx + n.y() * dy + n.z() * dz;
+      }
+      for (int w = 0; w < kReservoirBlockSize; ++w) {  // a loop of its own, or some compilers interleave blocks instead of vectorising
+        weights[w] += factors[w];
+        products[w] += factors[w] * offsets_mm[w];
       }
     }
     for (int w = 0; w < kReservoirBlockSize; ++w) {
