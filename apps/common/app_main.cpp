@@ -2,9 +2,18 @@
 // Copyright (c) 2026 The Foothold authors
 #include "common/app_main.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
 #include <exception>
+#include <iostream>
 #include <new>
+#include <opencv2/core.hpp>
 
 #include "foothold/base/error.h"
 
@@ -18,19 +27,39 @@ void on_interrupt(int signal) {
   std::signal(signal, SIG_DFL);  // the second Ctrl-C means it
 }
 
-}  // namespace
+/// Writes what stdout still holds. @return False, having said so, if it or anything before could not be written.
+bool finish_stdout() {
+  errno = 0;
+  std::cout.flush();
+  const bool is_complete = std::fflush(stdout) == 0 && std::cout && std::ferror(stdout) == 0;
+  if (!is_complete) log_error(std::string("standard output: cannot be written: ") + std::strerror(errno != 0 ? errno : EIO));
+  return is_complete;
+}
 
-int run_app(CommandLine& app, int argc, char** argv, const std::function<int()>& body) {
-  try {
-    const std::optional<int> exit_code = app.parse(argc, argv);
-    if (exit_code.has_value()) return *exit_code == 0 ? kSuccess : kUserError;
-  } catch (const std::exception& error) {
-    log_error(error.what());
-    return kBug;
+/// Opens those of the three standard streams that are closed, so that no other file takes their place. What is written to them fails.
+void reserve_standard_streams() {
+  for (const int descriptor : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    if (::fcntl(descriptor, F_GETFD) == -1) ::open("/dev/null", descriptor == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
-  interrupt_requested = 0;
-  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_interrupt);
-  if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup means it
+}
+
+/// What nobody catches, as memory that runs out in a thread or where nothing may be thrown.
+[[noreturn]] void on_terminate() {
+  try {
+    if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::bad_alloc&) {
+    std::fputs("error: out of memory\n", stderr);
+    std::_Exit(kOutOfMemory);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "error: unexpected: %s\n", error.what());
+  } catch (...) {
+    std::fputs("error: unexpected\n", stderr);
+  }
+  std::abort();
+}
+
+/// Runs what may throw, and says what it threw.
+int exit_code_of(const std::function<int()>& body) {
   try {
     return body();
   } catch (const Error& error) {
@@ -38,11 +67,32 @@ int run_app(CommandLine& app, int argc, char** argv, const std::function<int()>&
     return kUserError;
   } catch (const std::bad_alloc&) {
     log_error("out of memory");
-    return kBug;
+    return kOutOfMemory;
+  } catch (const cv::Exception& error) {
+    log_error(error.code == cv::Error::StsNoMem ? "out of memory" : std::string("unexpected: ") + error.what());
+    return error.code == cv::Error::StsNoMem ? kOutOfMemory : kBug;
   } catch (const std::exception& error) {
     log_error(std::string("unexpected: ") + error.what());
     return kBug;
   }
+}
+
+int parse_and_run(CommandLine& app, int argc, char** argv, const std::function<int()>& body) {
+  const std::optional<int> exit_code = app.parse(argc, argv);
+  if (exit_code.has_value()) return *exit_code == 0 ? kSuccess : kUserError;
+  interrupt_requested = 0;
+  for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_interrupt);
+  if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup means it
+  return body();
+}
+
+}  // namespace
+
+int run_app(CommandLine& app, int argc, char** argv, const std::function<int()>& body) {
+  std::set_terminate(on_terminate);
+  reserve_standard_streams();
+  const int code = exit_code_of([&] { return parse_and_run(app, argc, argv, body); });
+  return finish_stdout() || code != kSuccess ? code : kUserError;
 }
 
 bool interrupted() { return interrupt_requested != 0; }

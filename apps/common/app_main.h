@@ -15,14 +15,16 @@ namespace foothold::apps {
 /// What an app's process returns.
 enum ExitCode : int {
   kSuccess = 0,
-  kBug = 1,           ///< an unexpected exception
-  kUserError = 2,     ///< wrong arguments, settings, files or devices: the message says what was expected
+  kBug = 1,        ///< an unexpected exception
+  kUserError = 2,  ///< wrong arguments, settings, files or devices: the message says what was expected
+  kOutOfMemory = 3,
   kInterrupted = 130  ///< Ctrl-C or SIGTERM, as shells have it for the former
 };
 
 /// Parses the command line and calls `body`. Call it last in main() and return its result.
 ///
-/// Wrong arguments and exceptions derived from foothold::Error are reported on stderr and give kUserError; any other exception gives kBug.
+/// Wrong arguments and exceptions derived from foothold::Error are reported on stderr and give kUserError, as does a result that standard
+/// output does not take; memory that runs out gives kOutOfMemory, any other exception kBug.
 /// From then on Ctrl-C, the end of the terminal and SIGTERM make interrupted() true; a second one of a kind kills the process.
 int run_app(CommandLine& app, int argc, char** argv, const std::function<int()>& body);
 

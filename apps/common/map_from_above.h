@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/view_contents.h"
-#include "foothold/api/mesh.h"
+#include "foothold/base/mesh.h"
 #include "foothold/base/se3.h"
 #include "foothold/fusion/raycaster.h"
 

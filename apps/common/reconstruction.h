@@ -7,8 +7,8 @@
 #include <memory>
 #include <utility>
 
-#include "foothold/api/frame_uploader.h"
 #include "foothold/evaluation/kidnap.h"
+#include "foothold/frames/frame_uploader.h"
 #include "foothold/fusion/fusion_pipeline.h"
 
 namespace foothold::apps {

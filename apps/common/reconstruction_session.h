@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "foothold/api/frame_uploader.h"
+#include "foothold/frames/frame_uploader.h"
 #include "foothold/fusion/fusion_pipeline.h"
 #include "foothold/io/scene_file.h"
 #include "foothold/relocalisation/forest_relocaliser.h"

@@ -2,11 +2,11 @@
 // Copyright (c) 2026 The Foothold authors
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "common/view_panels.h"
 #include "common/view_style.h"
+#include "foothold/base/number_text.h"
 
 namespace foothold::apps {
 namespace {
@@ -84,8 +84,7 @@ void draw_scale(Canvas& canvas, const cv::Rect& area, double px_per_m) {
     length_m = candidate_m;
     if (candidate_m * px_per_m <= 0.35 * area.width) break;
   }
-  char words[16];
-  std::snprintf(words, sizeof(words), "%g m", length_m);
+  const std::string words = general_text(length_m, 6) + " m";
   const double right = area.x + area.width - 16.0;
   const double left = right - length_m * px_per_m;
   const double y = area.y + area.height - 14.0;

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "common/view_style.h"
+#include "foothold/base/number_text.h"
 #include "foothold/io/image_file.h"
 
 namespace foothold::apps {
@@ -18,12 +18,6 @@ using namespace style;
 constexpr double kMargin = 14.0;  // between a panel's border and its content [px]
 /// Where the confidence starts in the header: right of the widest state and note [px].
 constexpr double kConfidenceX = 500.0;
-
-std::string fixed_text(double value, int num_decimals) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.*f", num_decimals, value);
-  return text.data();
-}
 
 /// Clamps to [0, 1]; NaN to 0.
 double in_unit_range(double value) { return value > 0.0 ? std::min(value, 1.0) : 0.0; }

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "common/peak_memory.h"
-#include "foothold/api/frame_uploader.h"
+#include "foothold/frames/frame_uploader.h"
 
 namespace foothold::apps {
 

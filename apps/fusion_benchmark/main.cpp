@@ -8,9 +8,9 @@
 #include "common/json.h"
 #include "common/override_settings.h"
 #include "common/progress_bar.h"
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
 #include "foothold/evaluation/trajectory_error.h"
-#include "foothold/io/atomic_file.h"
 #include "foothold/io/sequence.h"
 #include "fusion_run.h"
 

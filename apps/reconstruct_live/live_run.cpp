@@ -7,10 +7,10 @@
 #include <ctime>
 #include <exception>
 
-#include "foothold/api/register_colour.h"
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
+#include "foothold/frames/register_colour.h"
 #include "foothold/fusion/surface_mesh.h"
-#include "foothold/io/atomic_file.h"
 #include "foothold/io/mesh_file.h"
 
 namespace foothold::live {

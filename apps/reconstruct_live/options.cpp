@@ -7,8 +7,8 @@
 #include <set>
 
 #include "common/override_settings.h"
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
-#include "foothold/io/atomic_file.h"
 #include "foothold/io/calibration.h"
 
 namespace foothold::live {
@@ -115,7 +115,7 @@ void check_options(const LiveOptions& options) {
   }
   // A long run should not end with a folder that does not exist.
   for (const std::string* output : {&options.save_scene, &options.save_mesh, &options.save_trajectory, &options.json}) {
-    if (!output->empty()) AtomicFile(*output, Durability::kCrash);
+    if (!output->empty()) expect_writable(*output);
   }
 }
 

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Foothold authors
 #include <filesystem>
 
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
-#include "foothold/io/atomic_file.h"
 #include "outputs.h"
 #include "plot.h"
 
@@ -21,7 +21,7 @@ std::string estimates_path(const std::string& path, const std::string& method, b
 
 void check_outputs(const CommonOptions& options) {
   for (const std::string& path : {options.json_file, options.csv_file, options.plot_file, options.estimates_file}) {
-    if (!path.empty()) AtomicFile probe(path);  // throws if the folder cannot be written to; leaves nothing behind
+    if (!path.empty()) expect_writable(path);
   }
   const std::string extension = std::filesystem::path(options.plot_file).extension().string();
   if (!options.plot_file.empty() && extension != ".png")

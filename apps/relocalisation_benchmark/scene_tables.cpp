@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/contract.h"
 #include "foothold/evaluation/text_table.h"
-#include "foothold/io/atomic_file.h"
 #include "outputs.h"
 
 namespace foothold::benchmark {

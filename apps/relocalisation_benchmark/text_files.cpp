@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include <array>
 #include <cmath>
-#include <cstdio>
 
+#include "foothold/base/number_text.h"
 #include "outputs.h"
 
 namespace foothold::benchmark {
@@ -23,9 +22,7 @@ void append_pose(const SE3& world_from_camera, std::string& line) {
 
 std::string csv_number(double value) {
   if (!std::isfinite(value)) return {};
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", value);
-  return text.data();
+  return general_text(value, 9);
 }
 
 std::string csv_cell(const std::string& text) {

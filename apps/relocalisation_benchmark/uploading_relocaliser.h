@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "foothold/api/frame_uploader.h"
 #include "foothold/api/relocaliser.h"
 #include "foothold/base/context.h"
+#include "foothold/frames/frame_uploader.h"
 
 namespace foothold::benchmark {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
 /// render_sequence: writes a rendered room, or any other recording, as a folder in the layout of 7-Scenes or as one raw file.
-#include <fstream>
 #include <iostream>
 
 #include "common/app_main.h"
 #include "common/progress_bar.h"
-#include "foothold/api/raw_sequence.h"
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
+#include "foothold/frames/raw_sequence.h"
 #include "foothold/io/sequence.h"
 #include "foothold/io/sequence_player.h"
 #include "foothold/io/seven_scenes_writer.h"
@@ -57,10 +57,11 @@ int write_folder(const std::shared_ptr<const Sequence>& sequence, const std::vec
 }
 
 int write_raw(const std::shared_ptr<const Sequence>& sequence, const std::vector<int>& indices, const std::string& path) {
-  std::ofstream stream(path, std::ios::binary);
-  if (!stream) throw FileError(path + ": cannot be written; does its folder exist?");
-  RawSequenceWriter writer(stream);
-  return write_frames(sequence, indices, writer);
+  AtomicFile file(path);
+  RawSequenceWriter writer(file.stream());
+  const int num_frames = write_frames(sequence, indices, writer);
+  if (num_frames > 0) file.commit();
+  return num_frames;
 }
 
 int render(const Options& options) {

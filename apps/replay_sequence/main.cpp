@@ -3,8 +3,8 @@
 /// replay_sequence: reconstructs a recording with its own tracker, kidnaps the camera on the way, and tells how that went.
 #include <cstdio>
 
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
-#include "foothold/io/atomic_file.h"
 #include "foothold/io/image_file.h"
 #include "foothold/io/mesh_file.h"
 #include "foothold/io/trajectory.h"

@@ -6,8 +6,8 @@
 
 #include "common/override_settings.h"
 #include "common/view_window.h"
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
-#include "foothold/io/atomic_file.h"
 
 namespace foothold::replay {
 namespace {
@@ -87,7 +87,7 @@ ReplaySettings replay_settings(const ReplayOptions& options) {
 
 void check_outputs(const ReplayOptions& options) {
   for (const std::string& path : {options.mesh_file, options.picture_file, options.trajectory_file, options.json_file}) {
-    if (!path.empty()) AtomicFile probe(path);  // throws if the folder cannot be written to; leaves nothing behind
+    if (!path.empty()) expect_writable(path);
   }
   if (options.show) {
     const std::string missing = apps::describe_missing_display();

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "foothold/api/mesh.h"
 #include "foothold/base/image.h"
+#include "foothold/base/mesh.h"
 #include "foothold/fusion/tsdf_volume.h"
 
 namespace foothold::replay {

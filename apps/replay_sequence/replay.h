@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "foothold/api/frame_source.h"
-#include "foothold/api/mesh.h"
+#include "foothold/base/mesh.h"
 #include "foothold/evaluation/kidnap.h"
 #include "foothold/evaluation/mesh_distance.h"
 #include "foothold/evaluation/trajectory_error.h"

@@ -7,8 +7,8 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "common/view_picture.h"
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
-#include "foothold/io/atomic_file.h"
 
 namespace foothold::replay {
 namespace {

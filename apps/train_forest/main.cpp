@@ -6,11 +6,13 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "common/app_main.h"
 #include "common/override_settings.h"
 #include "common/progress_bar.h"
 #include "foothold/base/error.h"
+#include "foothold/base/printable.h"
 #include "foothold/io/sequence.h"
 #include "foothold/learning/forest_training.h"
 
@@ -130,10 +132,13 @@ int make_random(const Options& options) {
   return kSuccess;
 }
 
+constexpr std::size_t kMaxInfoLine = 1000;
+
 int show_info(const Options& options) {
   const Forest forest = load_forest(options.forest_file);
   print_summary(forest, std::cout);
-  std::cout << forest.provenance() << "\n";
+  std::istringstream lines(forest.provenance());  // written by whoever made the file
+  for (std::string line; std::getline(lines, line);) std::cout << printable(line, kMaxInfoLine) << "\n";
   return kSuccess;
 }
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "common/canvas.h"
+#include "foothold/base/number_text.h"
 
 namespace foothold::apps {
 
@@ -20,28 +20,22 @@ constexpr Rgb8 kGrid{220, 220, 220};
 constexpr Rgb8 kCurve{30, 100, 190};
 constexpr Rgb8 kMark{200, 60, 40};
 
-std::string text(const char* format, double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof(buffer), format, value);
-  return buffer;
-}
-
 class Panel {
  public:
   Panel(Canvas& canvas, int index) : canvas_(canvas), left_(index * kPanelWidth + kMargin) {}
 
   void draw(const NamedReport& named) {
     const ClassifierReport& report = named.report;
-    canvas_.text({left_ + 0.5 * width(), 22.0}, named.title + ": AUC " + text("%.4f", report.auc), 11.0, kInk, TextAlign::kCentre);
+    canvas_.text({left_ + 0.5 * width(), 22.0}, named.title + ": AUC " + fixed_text(report.auc, 4), 11.0, kInk, TextAlign::kCentre);
     for (int decade = -4; decade <= 0; ++decade) {
       const double x = place({std::pow(10.0, decade), 0.0}).x;
       canvas_.line({x, top()}, {x, bottom()}, kGrid);
-      canvas_.text({x, bottom() + 16.0}, text("%g", std::pow(10.0, decade)), 9.0, kInk, TextAlign::kCentre);
+      canvas_.text({x, bottom() + 16.0}, general_text(std::pow(10.0, decade), 6), 9.0, kInk, TextAlign::kCentre);
     }
     for (int fifth = 0; fifth <= 5; ++fifth) {
       const double y = place({kLeastRate, 0.2 * fifth}).y;
       canvas_.line({left_, y}, {left_ + width(), y}, kGrid);
-      canvas_.text({left_ - 8.0, y}, text("%.1f", 0.2 * fifth), 9.0, kInk, TextAlign::kRight);
+      canvas_.text({left_ - 8.0, y}, fixed_text(0.2 * fifth, 1), 9.0, kInk, TextAlign::kRight);
     }
     std::vector<cv::Point2d> curve;
     for (const RocPoint& point : report.roc) curve.push_back(place({point.false_positive_rate, point.true_positive_rate}));

@@ -61,6 +61,21 @@ TEST_CASE("describe_frame_error: accepts 3 and 4 bytes per pixel") {
   }
 }
 
+TEST_CASE("describe_frame_error: gives focal lengths that point the wrong way, and says what to do") {
+  RgbdFrame frame = well_formed_frame();
+  frame.calibration.depth.fy = -585.0F;
+  REQUIRE(test::contains(describe_frame_error(frame.view()), "fy = -585"));
+  REQUIRE(test::contains(describe_frame_error(frame.view()), "flip the rows"));
+}
+
+TEST_CASE("describe_frame_error: wants a rigid transform between the cameras") {
+  RgbdFrame frame = well_formed_frame();
+  frame.calibration.depth_from_colour.rotation(2, 2) = -1.0F;
+  REQUIRE(test::contains(describe_frame_error(frame.view()), "depth_from_colour's rotation mirrors"));
+  frame.calibration.depth_from_colour.rotation = 1000.0F * Eigen::Matrix3f::Identity();
+  REQUIRE(test::contains(describe_frame_error(frame.view()), "depth_from_colour's rotation scales"));
+}
+
 TEST_CASE("describe_frame_error: wants usable intrinsics of both cameras") {
   for (const float focal : {0.0F, -585.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
     RgbdFrame frame = well_formed_frame();

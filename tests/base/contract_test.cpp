@@ -30,6 +30,20 @@ TEST_CASE("FOOTHOLD_EXPECTS: throws with condition, file and line by default") {
   REQUIRE(test::contains(message, "contract_test.cpp:"));
 }
 
+TEST_CASE("FOOTHOLD_EXPECTS_NO_ERROR: throws with the description, evaluated once") {
+  int num_evaluated = 0;
+  const auto expect = [&](const std::string& error) {
+    const auto describe = [&] { return ++num_evaluated, error; };
+    FOOTHOLD_EXPECTS_NO_ERROR(describe());
+  };
+  REQUIRE_NOTHROW(expect(""));
+  REQUIRE(num_evaluated == 1);
+  const std::string message = test::error_message<ContractViolation>([&] { expect("the image is upside down"); });
+  REQUIRE(num_evaluated == 2);
+  REQUIRE(test::contains(message, "the image is upside down at "));
+  REQUIRE(test::contains(message, "contract_test.cpp:"));
+}
+
 TEST_CASE("set_contract_handler: replaces the handler, and nullptr restores the default") {
   const ContractHandler former = set_contract_handler(&remember);
   seen = {};

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "support/catch.h"
+#include "support/error_message.h"
 #include "support/random_seed.h"
 
 namespace foothold {
@@ -126,6 +127,22 @@ TEST_CASE("is_rigid: refuses what is sheared, mirrored or not finite") {
   transform = SE3{};
   transform.translation.z() = std::numeric_limits<float>::infinity();
   REQUIRE_FALSE(is_rigid(transform, 1e-3F));
+}
+
+TEST_CASE("describe_pose_error: names what is wrong with a pose, and with a rigid one nothing") {
+  SE3 pose = se3_exp((Tangent6() << 0.3F, -1.0F, 0.5F, 1.0F, 2.0F, 3.0F).finished());
+  CHECK(describe_pose_error(pose).empty());
+  const auto with_rotation = [&](const Eigen::Matrix3f& factor) { return describe_pose_error({pose.rotation * factor, pose.translation}); };
+  CHECK(test::contains(with_rotation(Eigen::Vector3f(1.0F, 1.0F, -1.0F).asDiagonal()), "mirrors"));
+  CHECK(test::contains(with_rotation(1.05F * Eigen::Matrix3f::Identity()), "scales"));
+  CHECK(test::contains(with_rotation(1000.0F * Eigen::Matrix3f::Identity()), "scales"));
+  Eigen::Matrix3f shear = Eigen::Matrix3f::Identity();
+  shear(0, 1) = 0.05F;
+  CHECK(test::contains(with_rotation(shear), "shears"));
+  CHECK(test::contains(with_rotation(Eigen::Matrix3f::Constant(std::nanf(""))), "rotation is not finite"));
+  CHECK(!with_rotation(Eigen::Matrix3f::Zero()).empty());
+  pose.translation.x() = INFINITY;
+  CHECK(test::contains(describe_pose_error(pose), "translation is not finite"));
 }
 
 }  // namespace

@@ -14,10 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "foothold/api/frame_uploader.h"
-#include "foothold/api/raw_sequence.h"
 #include "foothold/base/error.h"
 #include "foothold/base/trace.h"
+#include "foothold/frames/frame_uploader.h"
+#include "foothold/frames/raw_sequence.h"
 #include "foothold/fusion/fusion_pipeline.h"
 #include "foothold/relocalisation/forest_relocaliser.h"
 #include "foothold/synthetic/synthetic_sequence.h"

@@ -14,7 +14,7 @@ import sys
 
 # What each module may include besides itself. Arrows point down only, and the modules of one layer never see each other.
 BOTTOM = ["base", "api"]
-LAYER_2 = ["relocalisation", "fusion", "evaluation", "synthetic"]
+LAYER_2 = ["frames", "relocalisation", "fusion", "evaluation", "synthetic"]
 ALLOWED = {
     "base": [],
     "api": ["base"],
@@ -30,7 +30,7 @@ ROOMS = {
     "fusion": {"tsdf": [], "raycast": ["tsdf"], "mesh": ["tsdf"], "icp": [], "view": [], "quality": [], "recovery": []},
 }
 # A program of its own that lives in a module's folder: the driver plug-in that plays sequences to OpenNI2.
-ALLOWED_BELOW = {"modules/openni/virtual_camera": ["io"]}
+ALLOWED_BELOW = {"modules/openni/virtual_camera": ["frames", "io"]}
 
 # External libraries, by the includes that betray them, and the places that may have them. "modules/x" covers everything below it.
 LIBRARIES = [
@@ -51,7 +51,7 @@ FORBIDDEN_IN_MODULES = [
     (re.compile(r"\bstd::c(?:out|err|log)\b|\b(?:printf|puts|putchar|perror)\s*\("), "writes to the terminal; use Context::log()"),
 ]
 THREADS = re.compile(r"\bstd::(?:thread|jthread|async)\b|\bpthread_create\b|#\s*pragma\s+omp\b")
-THREAD_FREE = ["modules/api", "modules/relocalisation", "modules/fusion", "modules/synthetic", "modules/evaluation"]
+THREAD_FREE = ["modules/api", "modules/frames", "modules/relocalisation", "modules/fusion", "modules/synthetic", "modules/evaluation"]
 THREADS_EXCEPT = re.compile(r"/background_\w+\.(h|cpp)$")  # background training lives on a thread of its own
 LAUNCH = re.compile(r"<<<")
 LAUNCH_PLACE = "modules/base/include/foothold/base/exec/"

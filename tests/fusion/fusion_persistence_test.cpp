@@ -4,9 +4,11 @@
 #include <sstream>
 #include <string>
 
+#include "foothold/base/checked_stream.h"
 #include "foothold/fusion/fusion_pipeline.h"
 #include "fusion/scene.h"
 #include "support/catch.h"
+#include "support/mend_checksums.h"
 #include "support/random_seed.h"
 
 namespace foothold {
@@ -123,17 +125,47 @@ TEST_CASE("FusionPipeline: damaged reconstructions are refused and the former on
     REQUIRE(bytes_of(pipeline) == before);
   };
   check_refused("");
-  CHECK_THAT(refusal(pipeline, std::string(200, 'x')), Contains("unknown first bytes"));
+  CHECK_THAT(refusal(pipeline, std::string(200, 'x')), Contains("not a reconstruction of Foothold"));
   std::string other_version = good;
-  other_version[8] = 2;
-  CHECK_THAT(refusal(pipeline, other_version), Contains("got version 2, expected 1"));
+  other_version[8] = 9;
+  CHECK_THAT(refusal(pipeline, other_version), Contains("a reconstruction of version 9, expected version 2"));
   Random random = test::test_random();
-  for (std::size_t place = 0; place < 72; ++place) {  // the head and its checksum
+  for (std::size_t place = 0; place < checked_size(49); ++place) {  // the head
     std::string bad = good;
     bad[place] = static_cast<char>(bad[place] ^ static_cast<char>(1U << random.below(8)));
     check_refused(bad);
   }
   for (int i = 0; i < 10; ++i) check_refused(good.substr(0, random.below(static_cast<std::uint32_t>(good.size()))));
+}
+
+TEST_CASE("FusionPipeline: load throws FileError alone, though the stream's exceptions are on") {
+  const Context context;
+  FusionPipeline pipeline = arc_pipeline(context, coarse_settings(), 1);
+  const std::string good = bytes_of(pipeline);
+  for (std::size_t length = 0; length < good.size(); length += 1 + length / 2) {
+    std::istringstream stream(good.substr(0, length));
+    stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+    REQUIRE_THROWS_AS(pipeline.load(stream), FileError);
+  }
+}
+
+TEST_CASE("FusionPipeline: a map in a reconstruction that has not begun, and two blocks of one place, are refused") {
+  const Context context;
+  FusionPipeline pipeline = arc_pipeline(context, coarse_settings(), 1);
+  constexpr std::size_t kStarted = 16;
+  std::string bad = bytes_of(pipeline);
+  REQUIRE(bad[kStarted] == 1);
+  bad[kStarted] = 0;
+  CHECK_THAT(refusal(pipeline, test::with_right_checksums(bad)), Contains("has not begun, but has a map of"));
+
+  const std::size_t map = checked_size(49);
+  constexpr std::size_t kKeys = 16 + 32;
+  bad = bytes_of(pipeline);
+  bad.replace(map + kKeys + 8, 8, bad.substr(map + kKeys, 8));
+  std::size_t place = map;
+  test::mend_checksums(bad, place);
+  REQUIRE(place == bad.size());
+  CHECK_THAT(refusal(pipeline, bad), Contains("map: has two blocks of key"));
 }
 
 }  // namespace

@@ -3,11 +3,10 @@
 /// Scene files: what is accepted reads the same once written again. Checksums are set right first, or no input would get past them.
 #include "scene_stream.h"
 
-#include <cstring>
 #include <sstream>
 
-#include "foothold/base/checksum.h"
 #include "fuzz.h"
+#include "support/mend_checksums.h"
 
 namespace {
 
@@ -22,35 +21,11 @@ struct Bytes : foothold::Persistent {
   std::string bytes;
 };
 
-template <class T>
-bool get(const std::string& file, std::size_t place, T& value) {
-  if (place + sizeof(T) > file.size()) return false;
-  std::memcpy(&value, file.data() + place, sizeof(T));
-  return true;
-}
-
-void put_checksum(std::string& file, std::size_t place, std::uint64_t checksum) {
-  if (place + sizeof(checksum) <= file.size()) std::memcpy(&file[place], &checksum, sizeof(checksum));
-}
-
-/// Walks the file as a reader would, and writes the checksum that each place should have.
+/// A scene's head and its parts, each chained to what came before.
 void mend_checksums(std::string& file) {
-  constexpr std::size_t kFixedBytes = 24;
-  std::uint32_t size = 0;
-  if (!get(file, 12, size) || kFixedBytes + size > file.size()) return;
-  std::uint64_t checksum = foothold::fnv1a(foothold::kFnvBasis, file.data() + kFixedBytes, size);
-  put_checksum(file, 16, checksum);
-  std::size_t place = kFixedBytes + size + sizeof(std::uint32_t);
-  for (int part = 0; part < 2 && get(file, place, size) && place + 4 + size <= file.size(); ++part) {
-    checksum = foothold::fnv1a(checksum, file.data() + place + 4, size);
-    place += 4 + size;
-    while (get(file, place, size) && place + 4 + size <= file.size()) {
-      checksum = foothold::fnv1a(checksum, file.data() + place, 4 + size);
-      put_checksum(file, place + 4 + size, checksum);
-      place += 12 + size;
-      if (size == 0) break;
-    }
-  }
+  std::size_t place = 0;
+  std::uint64_t chain = foothold::kFnvBasis;
+  while (place < file.size()) chain = foothold::test::mend_checksums(file, place, chain);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "foothold/base/array.h"
+#include "foothold/base/error.h"
 #include "gpu/device.h"
 #include "support/catch.h"
 #include "support/emulated_cuda/emulated_cuda_executor.h"
@@ -70,6 +71,23 @@ TEST_CASE("emulated CUDA: lanes of one team that come to different barriers die"
     });
     context.synchronise();
   }));
+}
+
+TEST_CASE("Array: a copy that fails leaks no memory and changes nothing") {
+  test::EmulatedCuda& device = test::EmulatedCuda::instance();
+  const std::vector<int> numbers{1, 2, 3};
+  Array<int> array(MemoryKind::kCuda, Span<const int>(numbers));
+  const auto check_failure = [&](const auto& deed) {
+    device.reset_counts();
+    device.fail_next_copy();
+    CHECK_THROWS_AS(deed(), CudaError);
+    CHECK(device.counts().num_allocations == 1);
+    CHECK(device.counts().num_frees == 1);
+    CHECK(array.to_host() == numbers);
+  };
+  check_failure([&] { Array<int> copy(array); });
+  check_failure([&] { Array<int> copy(MemoryKind::kCuda, Span<const int>(numbers)); });
+  check_failure([&] { array.reserve(100); });
 }
 
 }  // namespace

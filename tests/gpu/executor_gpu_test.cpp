@@ -5,9 +5,9 @@
 #include <numeric>
 #include <vector>
 
-#include "foothold/api/frame_uploader.h"
 #include "foothold/base/array.h"
 #include "foothold/base/random.h"
+#include "foothold/frames/frame_uploader.h"
 #include "gpu/device.h"
 #include "gpu/executor_verbs.h"
 #include "support/catch.h"

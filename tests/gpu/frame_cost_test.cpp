@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "foothold/api/frame_uploader.h"
+#include "foothold/frames/frame_uploader.h"
 #include "foothold/fusion/fusion_pipeline.h"
 #include "fusion/scene.h"
 #include "gpu/device.h"

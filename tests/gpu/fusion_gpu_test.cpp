@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "foothold/api/frame_uploader.h"
+#include "foothold/frames/frame_uploader.h"
 #include "foothold/fusion/fusion_pipeline.h"
 #include "foothold/fusion/icp_tracker.h"
 #include "foothold/fusion/raycaster.h"

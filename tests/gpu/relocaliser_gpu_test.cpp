@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "features/leaf_lookup.h"
-#include "foothold/api/frame_uploader.h"
 #include "foothold/base/random.h"
+#include "foothold/frames/frame_uploader.h"
 #include "foothold/relocalisation/forest_relocaliser.h"
 #include "gpu/device.h"
 #include "relocalisation/scenes.h"

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "foothold/base/error.h"
 #include "support/catch.h"
 #include "support/random_seed.h"
 
@@ -130,6 +131,12 @@ TEST_CASE("to_se3: reads columns, and re-orthonormalises what has drifted") {
   for (int i = 0; i < 11; ++i) drifted.m[i] *= 1.001F;
   REQUIRE(is_rigid(to_se3(drifted), 1e-6F));
   REQUIRE(are_close(to_se3(drifted), fixture.camera_from_world));
+  HostMatrix mirrored = matrix;
+  for (int i = 0; i < 4; ++i) mirrored.m[i] = -mirrored.m[i];
+  REQUIRE_THROWS_AS(to_se3(mirrored), ContractViolation);
+  HostMatrix scaled = matrix;
+  for (int i = 0; i < 11; ++i) scaled.m[i] *= 1000.0F;
+  REQUIRE_THROWS_AS(to_se3(scaled), ContractViolation);
 }
 
 TEST_CASE("world_from_camera: is the inverse of what the host keeps, there and back") {

@@ -73,8 +73,11 @@ TEST_CASE("run_app: mistakes of the user give exit code 2 and the message") {
 
 TEST_CASE("run_app: anything else that is thrown gives exit code 1") {
   CHECK(run({"--value", "1"}, []() -> int { throw std::logic_error("bug"); }).exit_code == kBug);
+}
+
+TEST_CASE("run_app: memory that runs out gives exit code 3 and says so") {
   const Outcome memory = run({"--value", "1"}, []() -> int { throw std::bad_alloc(); });
-  CHECK(memory.exit_code == kBug);
+  CHECK(memory.exit_code == kOutOfMemory);
   CHECK_THAT(memory.messages, Contains("out of memory"));
 }
 

@@ -12,16 +12,6 @@ namespace foothold::test {
 
 namespace fs = std::filesystem;
 
-void write_text(const std::string& path, const std::string& text) {
-  std::ofstream stream(path, std::ios::binary);
-  stream << text;
-}
-
-std::string read_text(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
 void truncate_file(const std::string& path, double fraction) {
   fs::resize_file(path, static_cast<std::uintmax_t>(fraction * static_cast<double>(fs::file_size(path))));
 }

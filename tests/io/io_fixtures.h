@@ -12,8 +12,6 @@
 
 namespace foothold::test {
 
-void write_text(const std::string& path, const std::string& text);
-std::string read_text(const std::string& path);
 /// Cuts a file to a part of its length.
 void truncate_file(const std::string& path, double fraction);
 

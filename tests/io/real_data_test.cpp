@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "foothold/api/register_colour.h"
 #include "foothold/base/trace.h"
+#include "foothold/frames/register_colour.h"
 #include "foothold/io/sequence.h"
 #include "foothold/io/sequence_player.h"
 #include "support/catch.h"

@@ -108,6 +108,20 @@ TEST_CASE("load_settings: a bad value is named, with its range") {
   CHECK_THAT(load_error<InvalidSettings>("{\"first\": {\"count\": 5}, \"first.count\": 6}"), Contains("twice"));
 }
 
+TEST_CASE("load_settings: objects nested by the thousand and names without end are refused at once, in a short message") {
+  std::string nested;
+  for (int i = 0; i < 50000; ++i) nested += "{\"a\":";
+  for (const std::string& text :
+       {nested, "{\"" + std::string(1000000, 'a') + "\": 1}", "{\"first\": {\"" + std::string(1000000, 'a') + "\": 1}}"}) {
+    const std::string error = load_error<InvalidSettings>(text);
+    CHECK_THAT(error, Contains("33 deep") || Contains("characters"));
+    CHECK(error.size() < 400);
+  }
+  const std::string value = load_error<InvalidSettings>("{\"fast\": \"\\u001b[2J" + std::string(1000000, 'x') + "\"}");
+  CHECK_THAT(value, Contains("\\x1b[2J"));
+  CHECK(value.size() < 400);
+}
+
 TEST_CASE("load_settings: bad JSON is placed") {
   CHECK_THAT(load_error<FileError>("{\"first\": {\"count\": 5}"), Contains("byte 23") && Contains("JSON"));
   CHECK_THAT(load_error<FileError>(""), Contains("JSON"));

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Foothold authors
 #include <algorithm>
 
-#include "foothold/api/register_colour.h"
+#include "foothold/frames/register_colour.h"
 #include "foothold/io/image_file.h"
 #include "foothold/io/sequence.h"
 #include "foothold/io/seven_scenes_writer.h"

@@ -78,7 +78,7 @@ TEST_CASE("ForestCheckpoint: reads back what it wrote, and goes on from there") 
 
 TEST_CASE("ForestCheckpoint: forgets the record that was being written, whichever byte was the last") {
   const Fixture fixture;
-  for (std::size_t num_bytes = 24; num_bytes < fixture.bytes.size(); ++num_bytes) {
+  for (std::size_t num_bytes = checked_size(sizeof(kTraining)); num_bytes < fixture.bytes.size(); ++num_bytes) {
     fixture.write(fixture.bytes.substr(0, num_bytes));
     ForestExamples read = no_examples();
     std::vector<ForestLevel> levels;
@@ -91,7 +91,7 @@ TEST_CASE("ForestCheckpoint: forgets the record that was being written, whicheve
 
 TEST_CASE("ForestCheckpoint: never takes a damaged record for a whole one") {
   const Fixture fixture;
-  for (std::size_t place = 24; place < fixture.bytes.size(); ++place) {
+  for (std::size_t place = checked_size(sizeof(kTraining)); place < fixture.bytes.size(); ++place) {
     std::string damaged = fixture.bytes;
     damaged[place] = static_cast<char>(damaged[place] ^ 0x10);
     fixture.write(damaged);
@@ -109,11 +109,11 @@ TEST_CASE("ForestCheckpoint: refuses files that are none, of another version, or
   std::string other = fixture.bytes;
   other[8] = 9;
   fixture.write(other);
-  CHECK(test::contains(fixture.resume_error(), "version is 9, expected 1"));
+  CHECK(test::contains(fixture.resume_error(), "a checkpoint of a training of version 9, expected version 2; delete the file"));
   fixture.write("FHFOREST and so on, long enough for a header");
   CHECK(test::contains(fixture.resume_error(), "FHFTRAIN"));
-  fixture.write("short");
-  CHECK(test::contains(fixture.resume_error(), "FHFTRAIN"));
+  fixture.write("FHFTR");
+  CHECK(test::contains(fixture.resume_error(), "ends early"));
 }
 
 }  // namespace foothold

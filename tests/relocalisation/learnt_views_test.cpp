@@ -11,6 +11,8 @@
 
 #include "foothold/base/error.h"
 #include "support/catch.h"
+#include "support/checked_bytes.h"
+#include "support/error_message.h"
 #include "support/random_seed.h"
 
 namespace foothold {
@@ -85,6 +87,21 @@ TEST_CASE("LearntViews: who stays learns nothing more, and takes no more memory,
   REQUIRE(num_kept({0.0F, 0.0F, -4.0F}) > 1000);
 }
 
+std::string saved(const LearntViews& views) {
+  return test::checked_bytes([&](CheckedWriter& writer) { views.save(writer); });
+}
+
+std::string table(std::uint64_t num_slots, const std::vector<std::uint64_t>& entries) {
+  return test::checked_bytes([&](CheckedWriter& writer) {
+    writer.write(num_slots);
+    writer.write_array(entries);
+  });
+}
+
+void load(const std::string& bytes, LearntViews& views) {
+  test::read_checked(bytes, [&](CheckedReader& reader) { views.load(Context(), reader); });
+}
+
 TEST_CASE("LearntViews: without a limit, all that has depth is kept and nothing is remembered") {
   Random random = test::test_random();
   const Context context;
@@ -94,9 +111,8 @@ TEST_CASE("LearntViews: without a limit, all that has depth is kept and nothing 
     views.keep_new(context, Eigen::Vector3f::Zero(), 0, examples);
     REQUIRE(examples.pixels.size() == 900);
   }
-  std::stringstream stream;
-  views.save(stream);
-  REQUIRE(stream.str().size() == 2 * sizeof(std::uint64_t));  // the size of the table and the number of views in it, which is 0
+  REQUIRE(saved(views).size() ==
+          checked_size(2 * sizeof(std::uint64_t)));  // the size of the table and the number of views in it, which is 0
 }
 
 TEST_CASE("LearntViews: what is saved and loaded keeps the same examples afterwards") {
@@ -105,10 +121,8 @@ TEST_CASE("LearntViews: what is saved and loaded keeps the same examples afterwa
   LearntViews views(MemoryKind::kHost);
   TrainingExamples first = random_examples(random, 1000);
   views.keep_new(context, Eigen::Vector3f::Zero(), 4, first);
-  std::stringstream stream;
-  views.save(stream);
   LearntViews loaded(MemoryKind::kHost);
-  loaded.load(context, stream);
+  load(saved(views), loaded);
   Random again = random;
   TrainingExamples a = random_examples(random, 1000);
   TrainingExamples b = random_examples(again, 1000);
@@ -119,17 +133,17 @@ TEST_CASE("LearntViews: what is saved and loaded keeps the same examples afterwa
 }
 
 TEST_CASE("LearntViews: a table that is not in order is refused") {
-  const Context context;
   for (const std::vector<std::uint64_t>& entries : {std::vector<std::uint64_t>{512, 512}, {1024, 512}, {~std::uint64_t{0}}}) {
-    std::stringstream stream;
-    const std::uint64_t num_slots = 1024;
-    const std::uint64_t count = entries.size();
-    stream.write(reinterpret_cast<const char*>(&num_slots), sizeof(num_slots));
-    stream.write(reinterpret_cast<const char*>(&count), sizeof(count));
-    stream.write(reinterpret_cast<const char*>(entries.data()), static_cast<std::streamsize>(count * sizeof(std::uint64_t)));
     LearntViews views(MemoryKind::kHost);
-    REQUIRE_THROWS_AS(views.load(context, stream), FileError);
+    REQUIRE_THROWS_AS(load(table(1024, entries), views), FileError);
   }
+}
+
+TEST_CASE("LearntViews: a table that is nearly empty takes no memory to speak of") {
+  LearntViews views(MemoryKind::kHost);
+  REQUIRE_NOTHROW(load(table(1U << 20U, {512}), views));
+  const std::string message = test::error_message<FileError>([&] { load(table(1U << 30U, {512}), views); });
+  REQUIRE(test::contains(message, "has 1073741824 slots for 1 learnt views, expected at most 16 for each"));
 }
 
 }  // namespace

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "relocalisation/clouds.h"
 #include "support/catch.h"
+#include "support/checked_bytes.h"
 #include "support/random_seed.h"
 
 namespace foothold {
@@ -203,10 +203,9 @@ TEST_CASE("LeafModes: the same whatever the number of threads") {
     for (int i = 0; i < 100; ++i) clouds.push_back(blobs(random, static_cast<int>(random.below(9)), 6));
     Leaves leaves(clouds, ClusteringSettings{}, num_threads);
     for (int repeat = 0; repeat < 3; ++repeat) leaves.update();
-    std::ostringstream stream;
-    leaves.modes.save(stream);
-    if (num_threads == 1) expected = stream.str();
-    REQUIRE((stream.str() == expected));
+    const std::string bytes = test::checked_bytes([&](CheckedWriter& writer) { leaves.modes.save(writer); });
+    if (num_threads == 1) expected = bytes;
+    REQUIRE((bytes == expected));
   }
 }
 

@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "foothold/base/error.h"
 #include "support/catch.h"
+#include "support/checked_bytes.h"
+#include "support/mend_checksums.h"
 #include "support/random_seed.h"
 
 namespace foothold {
@@ -219,9 +220,11 @@ TEST_CASE("LeafReservoirs: clear forgets everything") {
 }
 
 std::string saved(const LeafReservoirs& reservoirs) {
-  std::ostringstream stream;
-  reservoirs.save(stream);
-  return stream.str();
+  return test::checked_bytes([&](CheckedWriter& writer) { reservoirs.save(writer); });
+}
+
+void load(LeafReservoirs& reservoirs, const std::string& bytes) {
+  test::read_checked(bytes, [&](CheckedReader& reader) { reservoirs.load(reader); });
 }
 
 TEST_CASE("LeafReservoirs: load restores what save wrote, and both go on alike") {
@@ -231,8 +234,7 @@ TEST_CASE("LeafReservoirs: load restores what save wrote, and both go on alike")
   reservoirs.insert(context, random_examples(random, 0, 1000, 5, 100));
   const std::string bytes = saved(reservoirs);
   LeafReservoirs copy(context, 100, small_reservoirs(32), 42);
-  std::istringstream stream(bytes);
-  copy.load(stream);
+  load(copy, bytes);
   REQUIRE((saved(copy) == bytes));
   require_same(reservoirs, copy);
   const TrainingExamples more = random_examples(random, 5000, 1000, 5, 100);
@@ -249,8 +251,7 @@ TEST_CASE("LeafReservoirs: refuses damaged data and keeps what it had") {
   reservoirs.insert(context, random_examples(random, 0, 150, 2, 20));
   const std::string good = saved(reservoirs);
   const auto require_refused = [&](const std::string& bytes) {
-    std::istringstream stream(bytes);
-    REQUIRE_THROWS_AS(reservoirs.load(stream), FileError);
+    REQUIRE_THROWS_AS(load(reservoirs, bytes), FileError);
     REQUIRE((saved(reservoirs) == good));
   };
   for (std::size_t length = 0; length < good.size(); length += 1 + length / 50) require_refused(good.substr(0, length));
@@ -259,9 +260,9 @@ TEST_CASE("LeafReservoirs: refuses damaged data and keeps what it had") {
   const auto with_value = [&](std::size_t offset, auto value) {
     std::string bytes = good;
     std::memcpy(&bytes[offset], &value, sizeof(value));
-    return bytes;
+    return test::with_right_checksums(bytes);
   };
-  constexpr std::size_t kCounts = 0;
+  constexpr std::size_t kCounts = test::kContents;
   constexpr std::size_t kChanges = kCounts + 8 + 80;
   constexpr std::size_t kBlocks = kChanges + 8 + 80;
   constexpr std::size_t kPool = kBlocks + 8 + 160;

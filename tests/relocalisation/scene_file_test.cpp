@@ -102,6 +102,16 @@ TEST_CASE("ForestRelocaliser::load: a truncated scene is refused, and the former
   REQUIRE_FALSE(scene.error_of(scene.bytes.substr(0, scene.bytes.size() - 1)).empty());
 }
 
+TEST_CASE("ForestRelocaliser::load: throws FileError alone, though the stream's exceptions are on") {
+  SmallScene scene;
+  for (std::size_t length = 0; length < scene.bytes.size(); length += 1 + length / 5) {
+    INFO("length " << length);
+    std::istringstream stream(scene.bytes.substr(0, length));
+    stream.exceptions(std::ios::failbit | std::ios::badbit | std::ios::eofbit);
+    REQUIRE_THROWS_AS(scene.relocaliser.load(stream), FileError);
+  }
+}
+
 TEST_CASE("ForestRelocaliser::load: a damaged scene is refused wherever the damage is, and the former one stays") {
   SmallScene scene;
   for (std::size_t i = 0; i < scene.bytes.size(); i += 1 + i / 50) {
@@ -114,10 +124,10 @@ TEST_CASE("ForestRelocaliser::load: a damaged scene is refused wherever the dama
 
 TEST_CASE("ForestRelocaliser::load: says what is wrong with a scene of another kind, version, forest or size") {
   SmallScene scene;
-  REQUIRE(contains(scene.error_of("PLY, and then some more bytes to read"), "not one of a forest relocaliser"));
+  REQUIRE(contains(scene.error_of("PLY, and then some more bytes to read"), "not a scene of a forest relocaliser of Foothold"));
   std::string other = scene.bytes;
   other[8] = 77;
-  REQUIRE(contains(scene.error_of(other), "version 77"));
+  REQUIRE(contains(scene.error_of(other), "a scene of a forest relocaliser of version 77, expected version 4"));
   REQUIRE(contains(scene.error_of(SmallScene(43).bytes), "another forest"));
   ForestRelocaliserSettings settings = SmallScene::settings();
   settings.reservoirs.capacity = 48;

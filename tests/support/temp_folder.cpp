@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include <fstream>
 #include <iterator>
 
 #include "foothold/base/error.h"
@@ -24,5 +25,15 @@ TempFolder::~TempFolder() {
 }
 
 int TempFolder::num_files() const { return static_cast<int>(std::distance(fs::directory_iterator(path_), fs::directory_iterator())); }
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream stream(path, std::ios::binary);
+  stream << text;
+}
+
+std::string read_text(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
 
 }  // namespace foothold::test

@@ -25,4 +25,7 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
+void write_text(const std::string& path, const std::string& text);
+std::string read_text(const std::string& path);
+
 }  // namespace foothold::test

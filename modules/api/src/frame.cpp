@@ -2,9 +2,19 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/api/frame.h"
 
+#include "foothold/base/settings.h"
+
 namespace foothold {
 namespace {
 std::string size_text(int width, int height) { return std::to_string(width) + "x" + std::to_string(height); }
+
+std::string describe_intrinsics_error(const char* camera, const Intrinsics& k) {
+  if (is_valid(k)) return {};
+  const auto text = [](float value) { return detail::to_text(value); };
+  return std::string("the ") + camera + " intrinsics are fx = " + text(k.fx) + ", fy = " + text(k.fy) + ", cx = " + text(k.cx) +
+         ", cy = " + text(k.cy) + "; expected positive focal lengths and finite values" +
+         (k.fy < 0.0F ? " (fy < 0 means that v points up: flip the rows)" : "");
+}
 }  // namespace
 
 bool same_calibration(const RgbdCalibration& a, const RgbdCalibration& b) {
@@ -24,9 +34,9 @@ std::string describe_frame_error(const Frame& frame) {
   if (frame.colour.bytes_per_pixel != 3 && frame.colour.bytes_per_pixel != 4) {
     return "the colour image has " + std::to_string(frame.colour.bytes_per_pixel) + " bytes per pixel; expected 3 or 4";
   }
-  if (!is_valid(frame.calibration.depth)) return "the depth intrinsics need positive focal lengths and finite values";
-  if (!is_valid(frame.calibration.colour)) return "the colour intrinsics need positive focal lengths and finite values";
-  return {};
+  if (std::string error = describe_intrinsics_error("depth", frame.calibration.depth); !error.empty()) return error;
+  if (std::string error = describe_intrinsics_error("colour", frame.calibration.colour); !error.empty()) return error;
+  return describe_pose_error(frame.calibration.depth_from_colour, "depth_from_colour");
 }
 
 }  // namespace foothold

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "foothold/base/camera.h"
+#include "foothold/base/settings.h"
 
 namespace foothold {
 
@@ -36,6 +37,20 @@ bool is_rigid(const SE3& transform, float tolerance) {
   if (!transform.rotation.allFinite() || !transform.translation.allFinite()) return false;
   const Eigen::Matrix3f error = transform.rotation.transpose() * transform.rotation - Eigen::Matrix3f::Identity();
   return error.cwiseAbs().maxCoeff() <= tolerance && transform.rotation.determinant() > 0.0F;
+}
+
+std::string describe_pose_error(const SE3& pose, const std::string& name) {
+  if (is_rigid(pose)) return {};
+  if (!pose.rotation.allFinite()) return name + "'s rotation is not finite";
+  if (!pose.translation.allFinite()) return name + "'s translation is not finite";
+  const float determinant = pose.rotation.determinant();
+  if (determinant < 0.0F) return name + "'s rotation mirrors: its determinant is " + detail::to_text(determinant) + ", expected 1";
+  const Eigen::Vector3f scales = pose.rotation.colwise().norm();
+  if ((scales.array() - 1.0F).abs().maxCoeff() > 0.5F * kRigidTolerance) {
+    return name + "'s rotation scales: its columns have lengths " + detail::to_text(scales.x()) + ", " + detail::to_text(scales.y()) +
+           " and " + detail::to_text(scales.z()) + ", expected 1";
+  }
+  return name + "'s rotation shears: its columns are not at right angles to each other";
 }
 
 float rotation_distance_rad(const SE3& a, const SE3& b) {

@@ -8,8 +8,12 @@
 #include <numeric>
 #include <system_error>
 
+#include "foothold/base/printable.h"
+
 namespace foothold {
 namespace {
+
+constexpr std::size_t kMaxQuoted = 60;  ///< characters of what a user or a file gave, in messages
 
 /// Levenshtein's edit distance, for "did you mean".
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -56,7 +60,7 @@ std::string range_text(const Range& range) { return "[" + to_text(range.low) + "
 bool parse_bool(const std::string& path, const std::string& text) {
   if (text == "true" || text == "1") return true;
   if (text == "false" || text == "0") return false;
-  throw InvalidSettings("setting " + path + ": got '" + text + "', expected true or false");
+  throw InvalidSettings("setting " + path + ": got '" + printable(text, kMaxQuoted) + "', expected true or false");
 }
 
 void check_range(const std::string& path, double value, const Range& range) {
@@ -70,8 +74,8 @@ double parse_number(const std::string& path, const std::string& text, const Rang
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   const bool complete = error == std::errc() && end == text.data() + text.size();
   if (!complete || (integer && std::floor(value) != value)) {
-    throw InvalidSettings("setting " + path + ": got '" + text + "', expected " + (integer ? "an integer in " : "a number in ") +
-                          range_text(range));
+    throw InvalidSettings("setting " + path + ": got '" + printable(text, kMaxQuoted) + "', expected " +
+                          (integer ? "an integer in " : "a number in ") + range_text(range));
   }
   check_range(path, value, range);
   return value;
@@ -81,7 +85,8 @@ unsigned long long parse_unsigned(const std::string& path, const std::string& te
   unsigned long long value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || value > max) {
-    throw InvalidSettings("setting " + path + ": got '" + text + "', expected an integer from 0 to " + std::to_string(max));
+    throw InvalidSettings("setting " + path + ": got '" + printable(text, kMaxQuoted) + "', expected an integer from 0 to " +
+                          std::to_string(max));
   }
   return value;
 }
@@ -89,7 +94,7 @@ unsigned long long parse_unsigned(const std::string& path, const std::string& te
 void throw_unknown_setting(const std::string& path, const std::vector<SettingDescription>& known) {
   const auto nearest = std::min_element(
       known.begin(), known.end(), [&](const auto& a, const auto& b) { return edit_distance(path, a.path) < edit_distance(path, b.path); });
-  std::string message = "unknown setting '" + path + "'";
+  std::string message = "unknown setting '" + printable(path, kMaxQuoted) + "'";
   if (nearest != known.end()) message += "; did you mean '" + nearest->path + "'?";
   throw InvalidSettings(message);
 }

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "foothold/base/contract.h"
+#include "foothold/base/number_text.h"
 
 namespace foothold {
 namespace {
@@ -40,10 +40,7 @@ std::string format_table(const std::vector<std::string>& header, const std::vect
 
 std::string format_number(double value, int num_decimals) {
   if (!std::isfinite(value)) return "-";
-  const int length = std::snprintf(nullptr, 0, "%.*f", num_decimals, value);
-  std::string text(static_cast<std::size_t>(length), '\0');
-  std::snprintf(text.data(), text.size() + 1, "%.*f", num_decimals, value);
-  return text;
+  return fixed_text(value, num_decimals);
 }
 
 }  // namespace foothold

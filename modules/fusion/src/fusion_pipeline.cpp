@@ -45,7 +45,7 @@ FusionPipeline& FusionPipeline::operator=(FusionPipeline&&) noexcept = default;
 
 void FusionPipeline::start_at(const SE3& world_from_camera) {
   FOOTHOLD_EXPECTS(!started_);
-  FOOTHOLD_EXPECTS(is_rigid(world_from_camera, 1e-3F));
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_pose_error(world_from_camera));
   world_from_camera_ = world_from_camera;
 }
 

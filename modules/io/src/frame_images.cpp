@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "foothold/api/register_colour.h"
+#include "foothold/frames/register_colour.h"
 #include "foothold/io/image_file.h"
 #include "text_file.h"
 

@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/camera.h"
-#include "foothold/io/atomic_file.h"
 #include "text_file.h"
 
 namespace foothold {

@@ -7,8 +7,8 @@
 #include <cstring>
 #include <limits>
 
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/contract.h"
-#include "foothold/io/atomic_file.h"
 #include "ply_header.h"
 #include "text_file.h"
 

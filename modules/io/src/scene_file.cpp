@@ -2,16 +2,14 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/io/scene_file.h"
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "foothold/base/binary_stream.h"
-#include "foothold/base/checksum.h"
+#include "foothold/base/atomic_file.h"
+#include "foothold/base/checked_stream.h"
 #include "foothold/base/contract.h"
-#include "foothold/io/atomic_file.h"
 #include "scene_stream.h"
 #include "settings_json.h"
 #include "text_file.h"
@@ -22,27 +20,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::array<char, 8> kMagic{'F', 'H', 'S', 'C', 'E', 'N', 'E', '\n'};
-constexpr std::uint32_t kVersion = 1;
-constexpr std::uint32_t kMaxHeadBytes = 1U << 20U;
-constexpr std::uint32_t kMaxNameBytes = 64;
-
-/// What a scene file begins with. Little-endian, like every machine that Foothold runs on.
-struct FixedHead {
-  std::array<char, 8> magic{};
-  std::uint32_t version = 0;
-  std::uint32_t text_bytes = 0;
-  std::uint64_t text_checksum = 0;
-};
-static_assert(sizeof(FixedHead) == 24, "written as bytes");
-
-template <class T>
-T read_raw(std::istream& file, const std::string& name, const std::string& what) {
-  T value{};
-  file.read(reinterpret_cast<char*>(&value), sizeof(T));
-  if (!file) throw FileError(name + ": ends early, in the " + what + " of the scene");
-  return value;
-}
+constexpr BinaryFormat kSceneFormat{"scene", "FHSCENE\n", 2};
+constexpr BinaryFormat kPartFormat{"part of a scene", "FHPART\r\n", 1};
+constexpr std::uint64_t kMaxDescriptionBytes = 1U << 20U;
+constexpr std::uint64_t kMaxParts = 64;
+constexpr std::uint64_t kMaxNameBytes = 64;
 
 /// The description as JSON. Characters that JSON does not allow, such as those of a path in another encoding, are replaced.
 std::string to_json(const SceneDescription& description) {
@@ -76,89 +58,45 @@ SceneDescription from_json(const std::string& text, const std::string& name) {
   return description;
 }
 
-/// Reads a part's name and contents.
+/// What a scene file begins with.
+struct Head {
+  SceneDescription description;
+  std::vector<std::string> part_names;
+  std::uint64_t checksum = 0;  ///< with which the parts go on
+};
+
+Head read_head(std::istream& file, const std::string& name) {
+  CheckedReader reader(file, kSceneFormat, name);
+  const std::string text = reader.read_text("bytes of description", kMaxDescriptionBytes);
+  const auto num_parts = reader.read<std::uint64_t>("number of parts");
+  reader.check_range("parts", num_parts, 0, kMaxParts);
+  Head head;
+  while (head.part_names.size() < num_parts) head.part_names.push_back(reader.read_text("bytes of a part's name", kMaxNameBytes));
+  head.checksum = reader.finish();
+  head.description = from_json(text, name);
+  return head;
+}
+
+void check_names(const std::vector<std::string>& names, const std::vector<LoadedPart>& wanted, const std::string& file) {
+  if (names.size() != wanted.size()) throw_file_error(file, std::to_string(names.size()) + " parts", std::to_string(wanted.size()));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    FOOTHOLD_EXPECTS(wanted[i].part != nullptr);
+    if (names[i] != wanted[i].name) throw_file_error(file, "part " + in_quotes(names[i]), "part '" + wanted[i].name + "'");
+  }
+}
+
+/// @param checksum  of all that came before; receives that of all so far.
 void read_part(std::istream& file, const std::string& name, const LoadedPart& wanted, std::uint64_t& checksum) {
-  const auto name_bytes = read_raw<std::uint32_t>(file, name, "name of part '" + wanted.name + "'");
-  if (name_bytes == 0 || name_bytes > kMaxNameBytes) {
-    throw_file_error(name, "a part's name of " + std::to_string(name_bytes) + " bytes", "1 to " + std::to_string(kMaxNameBytes));
-  }
-  std::string part_name(name_bytes, '\0');
-  file.read(part_name.data(), name_bytes);
-  if (!file) throw FileError(name + ": ends early, in the name of part '" + wanted.name + "'");
-  if (part_name != wanted.name) throw_file_error(name, "part " + in_quotes(part_name), "part '" + wanted.name + "'");
-  checksum = fnv1a(checksum, part_name.data(), part_name.size());
-
-  PieceReader pieces(file, checksum);
-  std::istream stream(&pieces);
-  const auto check = [&] {
-    if (!pieces.error().empty()) throw FileError(name + ": part '" + wanted.name + "' " + pieces.error());
-  };
+  const std::string source = name + ": part '" + wanted.name + "'";
+  CheckedReader reader(file, kPartFormat, source, checksum);
   try {
-    wanted.part->load(stream);
+    wanted.part->load(reader.stream());
   } catch (const FileError& error) {
-    check();  // the file's damage explains what the part complains about
-    throw FileError(name + ": " + error.what());
+    reader.check();  // the file's damage explains what the part complains about
+    throw FileError(source + ": " + error.what());
   }
-  const bool at_end = stream.peek() == std::istream::traits_type::eof();
-  check();
-  if (!at_end) throw FileError(name + ": part '" + wanted.name + "' goes on where its end was expected");
+  checksum = reader.finish();
 }
-
-}  // namespace
-
-void write_scene(std::ostream& file, const SceneDescription& description, const std::vector<SavedPart>& parts) {
-  const std::string text = to_json(description);
-  FOOTHOLD_EXPECTS(text.size() <= kMaxHeadBytes);
-  std::uint64_t checksum = fnv1a(kFnvBasis, text.data(), text.size());
-  write_value(file, FixedHead{kMagic, kVersion, static_cast<std::uint32_t>(text.size()), checksum});
-  file.write(text.data(), static_cast<std::streamsize>(text.size()));
-  write_value(file, static_cast<std::uint32_t>(parts.size()));
-  for (const SavedPart& part : parts) {
-    FOOTHOLD_EXPECTS(part.part != nullptr && !part.name.empty() && part.name.size() <= kMaxNameBytes);
-    write_value(file, static_cast<std::uint32_t>(part.name.size()));
-    file.write(part.name.data(), static_cast<std::streamsize>(part.name.size()));
-    checksum = fnv1a(checksum, part.name.data(), part.name.size());
-    PieceWriter pieces(file, checksum);
-    std::ostream stream(&pieces);
-    part.part->save(stream);
-    pieces.finish();
-  }
-}
-
-SceneDescription read_scene_head(std::istream& file, const std::string& name, std::uint64_t& checksum) {
-  const auto magic = read_raw<std::array<char, 8>>(file, name, "first bytes");
-  if (magic != kMagic) throw FileError(name + ": not a scene of Foothold: unknown first bytes");
-  const auto version = read_raw<std::uint32_t>(file, name, "version");
-  if (version != kVersion) throw_file_error(name, "a scene of version " + std::to_string(version), "version " + std::to_string(kVersion));
-  const auto text_bytes = read_raw<std::uint32_t>(file, name, "head");
-  if (text_bytes > kMaxHeadBytes) {
-    throw_file_error(name, "a description of " + std::to_string(text_bytes) + " bytes", "at most " + std::to_string(kMaxHeadBytes));
-  }
-  const auto expected = read_raw<std::uint64_t>(file, name, "head");
-  std::string text(text_bytes, '\0');
-  file.read(text.data(), text_bytes);
-  if (!file) throw FileError(name + ": ends early, in the description of the scene");
-  checksum = fnv1a(kFnvBasis, text.data(), text.size());
-  if (checksum != expected) {
-    throw FileError(name + ": description damaged: checksum " + std::to_string(checksum) + ", expected " + std::to_string(expected));
-  }
-  return from_json(text, name);
-}
-
-SceneDescription read_scene(std::istream& file, const std::string& name, const std::vector<LoadedPart>& parts) {
-  std::uint64_t checksum = 0;
-  SceneDescription description = read_scene_head(file, name, checksum);
-  const auto num_parts = read_raw<std::uint32_t>(file, name, "number of parts");
-  if (num_parts != parts.size()) throw_file_error(name, std::to_string(num_parts) + " parts", std::to_string(parts.size()));
-  for (const LoadedPart& part : parts) {
-    FOOTHOLD_EXPECTS(part.part != nullptr);
-    read_part(file, name, part, checksum);
-  }
-  if (file.peek() != std::istream::traits_type::eof()) throw FileError(name + ": goes on where the scene's end was expected");
-  return description;
-}
-
-namespace {
 
 std::ifstream open_scene(const std::string& path) {
   errno = 0;
@@ -168,23 +106,42 @@ std::ifstream open_scene(const std::string& path) {
 }
 
 }  // namespace
+
+void write_scene(std::ostream& file, const SceneDescription& description, const std::vector<SavedPart>& parts) {
+  const std::string text = to_json(description);
+  FOOTHOLD_EXPECTS(text.size() <= kMaxDescriptionBytes && parts.size() <= kMaxParts);
+  CheckedWriter head(file, kSceneFormat);
+  head.write_text(text);
+  head.write(static_cast<std::uint64_t>(parts.size()));
+  for (const SavedPart& part : parts) {
+    FOOTHOLD_EXPECTS(part.part != nullptr && !part.name.empty() && part.name.size() <= kMaxNameBytes);
+    head.write_text(part.name);
+  }
+  std::uint64_t checksum = head.finish();
+  for (const SavedPart& part : parts) {
+    CheckedWriter writer(file, kPartFormat, checksum);
+    part.part->save(writer.stream());
+    checksum = writer.finish();
+  }
+}
+
+SceneDescription read_scene(std::istream& file, const std::string& name, const std::vector<LoadedPart>& parts) {
+  Head head = read_head(file, name);
+  check_names(head.part_names, parts, name);
+  for (const LoadedPart& part : parts) read_part(file, name, part, head.checksum);
+  if (file.peek() != std::istream::traits_type::eof()) throw FileError(name + ": goes on where the scene's end was expected");
+  return head.description;
+}
+
 }  // namespace io
 
 void save_scene(const std::string& path, const SceneDescription& description, const std::vector<SavedPart>& parts) {
-  AtomicFile file(path);
-  try {
-    io::write_scene(file.stream(), description, parts);
-  } catch (const FileError&) {
-    if (!file.stream()) file.commit();  // which knows why
-    throw;
-  }
-  file.commit();
+  write_file_atomically(path, [&](std::ostream& file) { io::write_scene(file, description, parts); });
 }
 
 SceneDescription read_scene_description(const std::string& path) {
   std::ifstream file = io::open_scene(path);
-  std::uint64_t checksum = 0;
-  return io::read_scene_head(file, path, checksum);
+  return io::read_head(file, path).description;
 }
 
 SceneDescription load_scene(const std::string& path, const std::vector<LoadedPart>& parts) {

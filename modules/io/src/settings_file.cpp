@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "foothold/io/atomic_file.h"
+#include "foothold/base/atomic_file.h"
 #include "settings_json.h"
 #include "text_file.h"
 
@@ -14,6 +14,10 @@ namespace io {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Every level repeats the path to it.
+constexpr std::size_t kMaxLevels = 32;
+constexpr std::size_t kMaxPathCharacters = 1000;
 
 /// Collects the leaves of a JSON object as a parser meets them, with their text as written, so that large integers keep every digit.
 class LeafCollector : public nlohmann::json_sax<Json> {
@@ -33,6 +37,7 @@ class LeafCollector : public nlohmann::json_sax<Json> {
 
   bool start_object(std::size_t) override {
     is_object_ = true;
+    if (prefixes_.size() == kMaxLevels) refuse("objects in objects, " + std::to_string(kMaxLevels + 1) + " deep");
     prefixes_.push_back(prefixes_.empty() ? "" : path_ + ".");
     return true;
   }
@@ -42,6 +47,7 @@ class LeafCollector : public nlohmann::json_sax<Json> {
   }
   bool key(string_t& name) override {
     path_ = prefixes_.back() + name;
+    if (path_.size() > kMaxPathCharacters) refuse("a name of " + std::to_string(path_.size()) + " characters");
     if (!paths_.insert(path_).second) throw InvalidSettings(file_ + ": setting " + in_quotes(path_) + " is given twice");
     return true;
   }

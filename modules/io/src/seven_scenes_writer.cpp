@@ -8,9 +8,10 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/contract.h"
 #include "foothold/base/error.h"
-#include "foothold/io/atomic_file.h"
+#include "foothold/base/number_text.h"
 #include "foothold/io/image_file.h"
 #include "frame_images.h"
 #include "seven_scenes_sequence.h"
@@ -18,11 +19,7 @@
 namespace foothold {
 namespace {
 
-std::string number_text(float value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", static_cast<double>(value));
-  return text.data();
-}
+std::string number_text(float value) { return general_text(value, 9); }
 
 std::string transform_text(const SE3& transform) {
   std::string text;
@@ -67,7 +64,7 @@ SevenScenesWriter::SevenScenesWriter(const std::string& folder) : folder_(folder
 }
 
 void SevenScenesWriter::write(const RgbdFrame& frame) {
-  FOOTHOLD_EXPECTS(describe_frame_error(frame.view()).empty());
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_frame_error(frame.view()));
   if (num_frames() == 0) {
     width_ = frame.depth.width();
     height_ = frame.depth.height();
@@ -100,10 +97,7 @@ void SevenScenesWriter::write_files(const std::string& stem, const RgbdFrame& fr
 
 void SevenScenesWriter::finish() {
   AtomicFile file(path("timestamps.txt"));
-  for (std::size_t i = 0; i < times_s_.size(); ++i) {
-    std::array<char, 64> line{};
-    file.stream().write(line.data(), std::snprintf(line.data(), line.size(), "%zu %.6f\n", i, times_s_[i]));
-  }
+  for (std::size_t i = 0; i < times_s_.size(); ++i) file.stream() << std::to_string(i) + " " + fixed_text(times_s_[i], 6) + "\n";
   file.commit();
 }
 

@@ -4,10 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
-#include <cstdio>
 
-#include "foothold/io/atomic_file.h"
+#include "foothold/base/atomic_file.h"
+#include "foothold/base/number_text.h"
 #include "text_file.h"
 
 namespace foothold {
@@ -78,10 +77,10 @@ void write_trajectory(const std::string& path, const std::vector<StampedPose>& t
   for (const StampedPose& pose : trajectory) {
     const Eigen::Quaterniond q = Eigen::Quaterniond(pose.world_from_camera.rotation.cast<double>()).normalized();
     const Eigen::Vector3f& t = pose.world_from_camera.translation;
-    std::array<char, 256> line{};
-    const int length = std::snprintf(line.data(), line.size(), "%.6f %.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", pose.timestamp_s, t.x(), t.y(),
-                                     t.z(), q.x(), q.y(), q.z(), q.w());
-    file.stream().write(line.data(), length);
+    std::string line = fixed_text(pose.timestamp_s, 6);
+    for (const double value : {double{t.x()}, double{t.y()}, double{t.z()}, q.x(), q.y(), q.z(), q.w()})
+      line += " " + general_text(value, 9);
+    file.stream() << line + "\n";
   }
   file.commit();
 }

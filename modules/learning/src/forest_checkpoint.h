@@ -5,9 +5,11 @@
 
 #include <cstdint>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "foothold/base/checked_stream.h"
 #include "forest_examples.h"
 #include "forest_grower.h"
 
@@ -35,11 +37,13 @@ class ForestCheckpoint {
   void add_level(const ForestLevel& level);
 
  private:
-  ForestCheckpoint(std::string path, std::ofstream stream) : path_(std::move(path)), stream_(std::move(stream)) {}
-  void finish_record();
+  ForestCheckpoint(std::string path, std::ofstream stream, std::uint64_t chain)
+      : path_(std::move(path)), stream_(std::move(stream)), chain_(chain) {}
+  void append(const BinaryFormat& format, const std::function<void(CheckedWriter&)>& write);
 
   std::string path_;
   std::ofstream stream_;
+  std::uint64_t chain_ = kFnvBasis;  ///< checksum of all records so far
 };
 
 }  // namespace foothold

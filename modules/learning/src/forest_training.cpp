@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <locale>
 #include <sstream>
 #include <utility>
 
@@ -146,6 +147,7 @@ class Training {
     }
     report(Stage::kGrowing, settings_.depth, settings_.depth);
     std::ostringstream data;
+    data.imbue(std::locale::classic());  // numbers without the host's grouping
     data << "\nexamples = " << examples_.size() << ", " << examples_per_frame_ << " a frame\ndata hash = " << std::hex
          << hash_of(examples_);
     for (const std::string& note : run_.notes) data << "\n" << note;

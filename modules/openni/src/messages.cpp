@@ -2,18 +2,14 @@
 // Copyright (c) 2026 The Foothold authors
 #include "messages.h"
 
-#include <cstdio>
+#include "foothold/base/number_text.h"
 
 namespace foothold::capture {
 namespace {
 
 constexpr const char* kSeeDocs = "See docs/cameras.md.";
 
-std::string seconds(int time_ms) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.1f s", 0.001 * time_ms);
-  return text;
-}
+std::string seconds(int time_ms) { return fixed_text(0.001 * time_ms, 1) + " s"; }
 
 std::string in_brackets(const std::string& text) { return text.empty() ? std::string() : " (OpenNI2 says: " + text + ")"; }
 

@@ -3,10 +3,12 @@
 #include "script.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <utility>
 
 #include "foothold/base/error.h"
+#include "foothold/base/settings.h"
 
 namespace foothold::virtual_camera {
 namespace {
@@ -32,10 +34,11 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 double parse_real(const std::string& what, const std::string& text, double low, double high) {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(value >= low && value <= high)) {
-    throw InvalidSettings(what + ": got '" + text + "', expected a number in [" + std::to_string(low) + ", " + std::to_string(high) + "]");
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);  // heeds no locale
+  if (error != std::errc() || end != text.data() + text.size() || !(value >= low && value <= high)) {
+    throw InvalidSettings(what + ": got '" + text + "', expected a number in [" + detail::to_text(low) + ", " + detail::to_text(high) +
+                          "]");
   }
   return value;
 }

@@ -4,12 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include "examples/training_examples.h"
-#include "foothold/base/binary_stream.h"
-#include "foothold/base/checksum.h"
+#include "foothold/base/checked_stream.h"
 #include "foothold/base/contract.h"
 #include "foothold/base/random.h"
 #include "forest/device_forest.h"
@@ -19,30 +17,7 @@
 namespace foothold {
 namespace {
 
-constexpr std::uint64_t kSceneMagic = 0x454e454353484fULL;
-constexpr std::uint32_t kSceneVersion = 3;  // 3: place by place
-constexpr float kRigidTolerance = 1e-2F;
-
-/// Reads the reservoirs' and modes' bytes, which stand behind their size and checksum, in bounded steps: a lying size must not exhaust
-/// memory.
-std::string read_body(std::istream& stream) {
-  constexpr std::uint64_t kStep = 1U << 20U;
-  const auto size = read_value<std::uint64_t>(stream, "size");
-  const auto expected = read_value<std::uint64_t>(stream, "checksum");
-  std::string body;
-  while (body.size() < size) {
-    const std::size_t old_size = body.size();
-    const std::size_t step = std::min(kStep, size - old_size);
-    body.resize(old_size + step);
-    stream.read(&body[old_size], static_cast<std::streamsize>(step));
-    if (!stream) throw FileError("the saved scene is truncated; expected " + std::to_string(size) + " bytes behind its header");
-  }
-  const std::uint64_t checksum = fnv1a(kFnvBasis, body.data(), body.size());
-  if (checksum != expected) {
-    throw FileError("the saved scene is damaged; its checksum is " + std::to_string(checksum) + ", expected " + std::to_string(expected));
-  }
-  return body;
-}
+constexpr BinaryFormat kSceneFormat{"scene of a forest relocaliser", "FHFSCENE", 4};  // 3: place by place; 4: in pieces
 
 /// True if a frame has at least one block of pixels to average; smaller ones hold nothing to learn or to find.
 bool has_blocks(const Frame& frame, const FeatureSettings& settings) {
@@ -50,7 +25,7 @@ bool has_blocks(const Frame& frame, const FeatureSettings& settings) {
 }
 
 void expect_usable(const Context& context, const Frame& frame) {
-  FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_frame_error(frame));
   FOOTHOLD_EXPECTS(frame.depth.memory == context.memory());
 }
 
@@ -162,7 +137,7 @@ std::size_t ForestRelocaliser::state_bytes() const { return state().places.state
 void ForestRelocaliser::train(const Frame& frame, const SE3& world_from_camera) {
   State& s = state();
   expect_usable(s.context, frame);
-  FOOTHOLD_EXPECTS(is_rigid(world_from_camera, kRigidTolerance));
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_pose_error(world_from_camera));
   if (!has_blocks(frame, s.settings.features)) return;
   const bool has_learnt = s.learn(frame, world_from_camera);
   const ScopedStage stage(s.context, "train/cluster");
@@ -190,42 +165,32 @@ void ForestRelocaliser::reset() {
 
 void ForestRelocaliser::save(std::ostream& stream) const {
   const State& s = state();
-  write_value(stream, kSceneMagic);
-  write_value(stream, kSceneVersion);
-  write_value(stream, s.forest.fingerprint());
-  write_value(stream, s.settings.reservoirs.capacity);
-  write_value(stream, s.settings.clustering.max_modes);
-  std::ostringstream body_stream;
-  write_value(body_stream, s.num_frames);
-  s.places.save(body_stream);
-  const std::string body = body_stream.str();
-  write_value(stream, static_cast<std::uint64_t>(body.size()));
-  write_value(stream, fnv1a(kFnvBasis, body.data(), body.size()));
-  stream.write(body.data(), static_cast<std::streamsize>(body.size()));
-  if (!stream) throw FileError("the relocaliser's scene could not be written: the stream failed");
+  CheckedWriter writer(stream, kSceneFormat);
+  writer.write(s.forest.fingerprint());
+  writer.write(s.settings.reservoirs.capacity);
+  writer.write(s.settings.clustering.max_modes);
+  writer.write(s.num_frames);
+  s.places.save(writer);
+  writer.finish();
 }
 
 void ForestRelocaliser::load(std::istream& stream) {
   State& s = state();
-  if (read_value<std::uint64_t>(stream, "magic") != kSceneMagic) throw FileError("the saved scene is not one of a forest relocaliser");
-  const auto version = read_value<std::uint32_t>(stream, "version");
-  if (version != kSceneVersion) {
-    throw FileError("the saved scene has version " + std::to_string(version) + ", expected " + std::to_string(kSceneVersion));
+  CheckedReader reader(stream, kSceneFormat);
+  if (reader.read<std::uint64_t>("forest fingerprint") != s.forest.fingerprint()) {
+    reader.refuse("learnt with another forest; load that forest first");
   }
-  if (read_value<std::uint64_t>(stream, "forest fingerprint") != s.forest.fingerprint()) {
-    throw FileError("the saved scene was learnt with another forest; load that forest first");
-  }
-  const auto capacity = read_value<int>(stream, "reservoir capacity");
-  const auto max_modes = read_value<int>(stream, "number of modes");
+  const auto capacity = reader.read<int>("reservoir capacity");
+  const auto max_modes = reader.read<int>("number of modes");
   if (capacity != s.settings.reservoirs.capacity || max_modes != s.settings.clustering.max_modes) {
-    throw FileError("the saved scene has reservoirs.capacity = " + std::to_string(capacity) +
-                    " and clustering.max_modes = " + std::to_string(max_modes) + ", expected " +
-                    std::to_string(s.settings.reservoirs.capacity) + " and " + std::to_string(s.settings.clustering.max_modes));
+    reader.refuse("has reservoirs.capacity = " + std::to_string(capacity) + " and clustering.max_modes = " + std::to_string(max_modes) +
+                  ", expected " + std::to_string(s.settings.reservoirs.capacity) + " and " +
+                  std::to_string(s.settings.clustering.max_modes));
   }
+  const auto num_frames = reader.read<std::uint64_t>("frame count");
   ScenePlaces places(s.context, s.forest.num_leaves(), s.settings);
-  std::istringstream body(read_body(stream));
-  const auto num_frames = read_value<std::uint64_t>(body, "frame count");
-  places.load(body);
+  places.load(reader, num_frames);
+  reader.finish();
   s.places = std::move(places);
   s.num_frames = num_frames;
   s.learning_place = 0;

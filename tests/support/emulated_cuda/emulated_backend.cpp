@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cuda_backend.h"
+#include "foothold/base/error.h"
 #include "support/emulated_cuda/emulated_cuda.h"
 
 namespace foothold::detail {
@@ -65,6 +66,7 @@ void* cuda_allocate(std::size_t num_bytes) { return EmulatedCuda::instance().all
 void cuda_free(void* pointer) noexcept { EmulatedCuda::instance().free(pointer); }
 
 void cuda_copy(void* to, const void* from, std::size_t num_bytes) {
+  if (EmulatedCuda::instance().take_failure()) throw CudaError("cudaMemcpy: a failure that the test asked for");
   ++EmulatedCuda::instance().counts().num_device_waits;
   EmulatedCuda::instance().run_now([=] { std::memcpy(to, from, num_bytes); });
 }

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <functional>
 #include <mutex>
+#include <utility>
 #include <vector>
 
 namespace foothold::test {
@@ -46,6 +47,11 @@ class EmulatedCuda {
   /// Runs work that touches device memory at once, behind what is queued.
   void run_now(const std::function<void()>& work);
 
+  /// Lets the next copy outside of streams fail.
+  void fail_next_copy() { copy_fails_ = true; }
+  /// True once after fail_next_copy().
+  bool take_failure() { return std::exchange(copy_fails_, false); }
+
   EmulatedCudaCounts& counts() { return counts_; }
   void reset_counts() { counts_ = {}; }
 
@@ -62,6 +68,7 @@ class EmulatedCuda {
   std::vector<Allocation> allocations_;
   std::vector<std::function<void()>> queue_;
   EmulatedCudaCounts counts_;
+  bool copy_fails_ = false;
 };
 
 /// Lets the lanes of one team wait for one another.

@@ -29,7 +29,7 @@ IcpTracker::IcpTracker(IcpTracker&&) noexcept = default;
 IcpTracker& IcpTracker::operator=(IcpTracker&&) noexcept = default;
 
 void IcpTracker::set_frame(const Frame& frame) {
-  FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_frame_error(frame));
   FOOTHOLD_EXPECTS(frame.depth.memory == context_.memory());
   const ScopedStage stage(context_, "fusion/pyramid");
   Scratch& scratch = *scratch_;

@@ -20,7 +20,6 @@ constexpr int kMinLog2Slots = 12;
 /// Pages that a map on a CUDA device begins with: 25 MB.
 constexpr std::size_t kFirstCudaPages = 16;
 /// Poses read from text files are rigid to about this much.
-constexpr float kRigidTolerance = 1e-3F;
 }  // namespace
 
 void TsdfSettings::validate() const {
@@ -153,9 +152,9 @@ void TsdfVolume::rebuild_table() {
 }
 
 IntegrationStats TsdfVolume::integrate(const Frame& frame, const SE3& world_from_camera) {
-  FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_frame_error(frame));
   FOOTHOLD_EXPECTS(frame.depth.memory == context_.memory());
-  FOOTHOLD_EXPECTS(is_rigid(world_from_camera, kRigidTolerance));
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_pose_error(world_from_camera));
   const PosedDepth camera{frame.depth, frame.calibration.depth, world_from_camera, settings_.depth_range()};
   IntegrationStats stats;
   {

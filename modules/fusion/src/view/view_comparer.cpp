@@ -20,7 +20,7 @@ ViewComparer::ViewComparer(ViewComparer&&) noexcept = default;
 ViewComparer& ViewComparer::operator=(ViewComparer&&) noexcept = default;
 
 void ViewComparer::set_frame(const Frame& frame) {
-  FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_frame_error(frame));
   FOOTHOLD_EXPECTS(frame.depth.memory == context_.memory());
   Scratch& scratch = *scratch_;
   const auto stride = static_cast<float>(kViewStridePx);

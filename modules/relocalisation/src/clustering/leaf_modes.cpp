@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "clustering/leaf_modes_kernels.h"
-#include "foothold/base/binary_stream.h"
+#include "foothold/base/checked_stream.h"
 #include "foothold/base/exec/dispatch.h"
 
 namespace foothold {
@@ -71,45 +71,44 @@ void LeafModes::update(const Context& context, LeafReservoirs& reservoirs) {
   cursor_ = static_cast<std::uint32_t>((cursor_ + chosen_.size()) % static_cast<std::size_t>(num_leaves_));
 }
 
-void LeafModes::save(std::ostream& stream) const {
-  write_value(stream, cursor_);
-  write_array(stream, num_modes_.to_host());
-  write_array(stream, num_owned_blocks_.to_host());
-  write_array(stream, modes_.blocks_to_host());
-  write_array(stream, modes_.used_pool_to_host());
+void LeafModes::save(CheckedWriter& writer) const {
+  writer.write(cursor_);
+  writer.write_array(num_modes_.to_host());
+  writer.write_array(num_owned_blocks_.to_host());
+  writer.write_array(modes_.blocks_to_host());
+  writer.write_array(modes_.used_pool_to_host());
 }
 
-void LeafModes::load(std::istream& stream) {
-  const auto cursor = read_value<std::uint32_t>(stream, "clustering cursor");
+void LeafModes::load(CheckedReader& reader) {
+  const auto cursor = reader.read<std::uint32_t>("clustering cursor");
   const auto num_leaves = static_cast<std::uint64_t>(num_leaves_);
   const int max_blocks = decltype(modes_)::View::blocks_for(settings_.max_modes);
   const std::uint64_t num_blocks = num_leaves * static_cast<std::uint64_t>(max_blocks);
-  const auto num_modes = read_array<std::uint32_t>(stream, "mode counts", num_leaves, num_leaves);
-  const auto num_owned = read_array<std::uint32_t>(stream, "mode block counts", num_leaves, num_leaves);
-  const auto blocks = read_array<std::int32_t>(stream, "mode block references", num_blocks, num_blocks);
-  const auto pool = read_array<Mode>(stream, "modes", 0, num_blocks * kModeBlockSize);
+  const auto num_modes = reader.read_array<std::uint32_t>("mode counts", num_leaves, num_leaves);
+  const auto num_owned = reader.read_array<std::uint32_t>("mode block counts", num_leaves, num_leaves);
+  const auto blocks = reader.read_array<std::int32_t>("mode block references", num_blocks, num_blocks);
+  const auto pool = reader.read_array<Mode>("modes", 0, num_blocks * kModeBlockSize);
   const auto num_used = static_cast<std::int64_t>(pool.size() / kModeBlockSize);
   std::vector<bool> taken(static_cast<std::size_t>(num_used), false);
   std::int64_t num_taken = 0;
   for (std::uint64_t leaf = 0; leaf < num_leaves; ++leaf) {
     if (num_modes[leaf] > static_cast<std::uint32_t>(settings_.max_modes) || num_owned[leaf] > static_cast<std::uint32_t>(max_blocks) ||
         num_modes[leaf] > num_owned[leaf] * kModeBlockSize) {
-      throw FileError("the saved scene gives leaf " + std::to_string(leaf) + " " + std::to_string(num_modes[leaf]) + " modes in " +
-                      std::to_string(num_owned[leaf]) + " blocks, expected at most " + std::to_string(settings_.max_modes));
+      reader.refuse("gives leaf " + std::to_string(leaf) + " " + std::to_string(num_modes[leaf]) + " modes in " +
+                    std::to_string(num_owned[leaf]) + " blocks, expected at most " + std::to_string(settings_.max_modes));
     }
     for (std::uint32_t k = 0; k < num_owned[leaf]; ++k) {
       const std::int32_t block = blocks[leaf * static_cast<std::uint64_t>(max_blocks) + k];
       if (block < 0 || block >= num_used)
-        throw FileError("the saved scene refers to mode block " + std::to_string(block) + ", there are " + std::to_string(num_used));
-      if (taken[static_cast<std::size_t>(block)])
-        throw FileError("the saved scene gives mode block " + std::to_string(block) + " to two leaves");
+        reader.refuse("refers to mode block " + std::to_string(block) + ", there are " + std::to_string(num_used));
+      if (taken[static_cast<std::size_t>(block)]) reader.refuse("gives mode block " + std::to_string(block) + " to two leaves");
       taken[static_cast<std::size_t>(block)] = true;
       ++num_taken;
     }
   }
   if (num_taken * kModeBlockSize != static_cast<std::int64_t>(pool.size())) {
-    throw FileError("the saved scene has " + std::to_string(pool.size()) + " modes, expected " + std::to_string(num_taken) + " blocks of " +
-                    std::to_string(kModeBlockSize));
+    reader.refuse("has " + std::to_string(pool.size()) + " modes, expected " + std::to_string(num_taken) + " blocks of " +
+                  std::to_string(kModeBlockSize));
   }
   cursor_ = cursor % static_cast<std::uint32_t>(num_leaves_);
   num_modes_.assign(Span<const std::uint32_t>(num_modes));

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 
 #include "foothold/base/array.h"
 #include "foothold/base/context.h"
@@ -13,6 +12,9 @@
 #include "reservoirs/leaf_reservoirs.h"
 
 namespace foothold {
+
+class CheckedReader;
+class CheckedWriter;
 
 /// A cluster of world points: a 3D Gaussian with a mean colour.
 struct Mode {
@@ -47,8 +49,8 @@ class LeafModes {
   std::size_t state_bytes() const;
   void clear();
 
-  void save(std::ostream& stream) const;
-  void load(std::istream& stream);
+  void save(CheckedWriter& writer) const;
+  void load(CheckedReader& reader);
 
  private:
   ClusteringSettings settings_;

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "examples/examples_algorithms.h"
-#include "foothold/base/binary_stream.h"
+#include "foothold/base/checked_stream.h"
 #include "foothold/base/exec/dispatch.h"
 
 namespace foothold {
@@ -16,7 +16,10 @@ extern template struct ExampleAlgorithms<CudaExecutor>;
 
 namespace {
 constexpr std::size_t kFewestSlots = 1024;
-constexpr std::uint64_t kMostSlots = std::uint64_t{1} << 30U;  ///< of a place, 8 GiB: what a file may ask for
+// What a file may ask for. A table grows when a frame's examples might not fit, which need not be new: a small one may be empty.
+constexpr std::uint64_t kMostSlots = std::uint64_t{1} << 30U;  ///< of a place, 8 GiB
+constexpr std::uint64_t kMostEmptySlots = std::uint64_t{1} << 22U;
+constexpr std::uint64_t kMostSlotsPerEntry = 16;
 }  // namespace
 
 LearntViews::LearntViews(MemoryKind memory)
@@ -77,22 +80,27 @@ void LearntViews::keep_new(const Context& context, const Eigen::Vector3f& camera
   examples.points.resize(totals[0]);
 }
 
-void LearntViews::save(std::ostream& stream) const {
+void LearntViews::save(CheckedWriter& writer) const {
   std::vector<std::uint64_t> entries = slots_.to_host();
   entries.erase(std::remove(entries.begin(), entries.end(), kEmptySlot), entries.end());
   std::sort(entries.begin(), entries.end());
-  write_value(stream, static_cast<std::uint64_t>(slots_.size()));
-  write_array(stream, entries);
+  writer.write(static_cast<std::uint64_t>(slots_.size()));
+  writer.write_array(entries);
 }
 
-void LearntViews::load(const Context& context, std::istream& stream) {
-  const auto num_slots = read_value<std::uint64_t>(stream, "learnt views' table");
+void LearntViews::load(const Context& context, CheckedReader& reader) {
+  const auto num_slots = reader.read<std::uint64_t>("learnt views' table");
   if (num_slots > kMostSlots || (num_slots & (num_slots - 1)) != 0)
-    throw FileError("the saved scene has " + std::to_string(num_slots) + " slots for learnt views, expected a power of two");
-  const auto entries = read_array<std::uint64_t>(stream, "learnt views", 0, num_slots * 2 / 3);
+    reader.refuse("has " + std::to_string(num_slots) + " slots for learnt views, expected a power of two up to " +
+                  std::to_string(kMostSlots));
+  const auto entries = reader.read_array<std::uint64_t>("learnt views", 0, num_slots * 2 / 3);
+  if (num_slots > kMostEmptySlots && num_slots > kMostSlotsPerEntry * entries.size()) {
+    reader.refuse("has " + std::to_string(num_slots) + " slots for " + std::to_string(entries.size()) + " learnt views, expected at most " +
+                  std::to_string(kMostSlotsPerEntry) + " for each");
+  }
   for (std::size_t i = 0; i < entries.size(); ++i) {
     if (entries[i] == kEmptySlot || (i > 0 && entries[i] >> kCountBits <= entries[i - 1] >> kCountBits))
-      throw FileError("the saved scene's learnt views are not in order");
+      reader.refuse("has learnt views that are not in order");
   }
   LearntViews loaded(slots_.memory());
   if (num_slots > 0) loaded.set_num_slots(context, num_slots);

@@ -6,13 +6,15 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <iosfwd>
 
 #include "examples/training_examples.h"
 #include "foothold/base/array.h"
 #include "foothold/base/context.h"
 
 namespace foothold {
+
+class CheckedReader;
+class CheckedWriter;
 
 /// Counts examples by piece of surface (a cube of the scene) and viewpoint (direction and distance of the camera from it).
 ///
@@ -28,9 +30,9 @@ class LearntViews {
 
   std::size_t state_bytes() const { return slots_.size() * sizeof(std::uint64_t); }
 
-  void save(std::ostream& stream) const;
+  void save(CheckedWriter& writer) const;
   /// @throws FileError if the table contradicts itself.
-  void load(const Context& context, std::istream& stream);
+  void load(const Context& context, CheckedReader& reader);
 
  private:
   void make_room(const Context& context, std::size_t num_new);

@@ -50,6 +50,12 @@ Forest make_random_forest(const RandomForestSettings& settings) {
     throw InvalidSettings("setting max_offset_px_m: got " + detail::to_text(settings.max_offset_px_m) +
                           ", expected at least min_offset_px_m = " + detail::to_text(settings.min_offset_px_m));
   }
+  const std::int64_t num_leaves = std::int64_t{settings.num_trees} << settings.depth;
+  if (num_leaves > kMaxForestLeaves) {
+    throw InvalidSettings("settings num_trees and depth: got " + std::to_string(settings.num_trees) + " trees of depth " +
+                          std::to_string(settings.depth) + ", which have " + std::to_string(num_leaves) + " leaves, expected at most " +
+                          std::to_string(kMaxForestLeaves));
+  }
   std::vector<ForestFeature> features;
   for (int i = 0; i < settings.num_features; ++i) {
     features.push_back(random_feature(settings, i, Random(derive_seed(settings.seed, kFeatureStream), static_cast<std::uint64_t>(i))));

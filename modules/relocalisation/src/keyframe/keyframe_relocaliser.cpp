@@ -4,29 +4,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <istream>
-#include <ostream>
 #include <string>
 #include <tuple>
 #include <utility>
 
 #include "foothold/base/array.h"
-#include "foothold/base/checksum.h"
+#include "foothold/base/checked_stream.h"
 #include "foothold/base/contract.h"
-#include "foothold/base/error.h"
 #include "foothold/base/settings.h"
 #include "keyframe/fern_encoder.h"
 
 namespace foothold {
 namespace {
 
-/// Entries of R^T R - I that a pose may have: single-precision products of rotations that were re-orthonormalised once.
-constexpr float kRigidTolerance = 1e-3F;
-
-// A scene: magic, version, the six settings that codes depend on, number of keyframes, codes, poses, checksum; little-endian.
-constexpr char kMagic[8] = {'F', 'H', 'K', 'E', 'Y', 'F', 'R', 'M'};
-constexpr std::uint32_t kVersion = 1;
+constexpr BinaryFormat kKeyframeFormat{"scene of a keyframe relocaliser", "FHKEYFRM", 2};
 
 /// The part of the settings that a code depends on; scenes can be read only by a relocaliser with the same.
 struct CodeSettings {
@@ -51,63 +42,13 @@ CodeSettings code_settings(const KeyframeRelocaliserSettings& s) {
   return {s.num_ferns, s.encoded_width_px, s.smoothing_sigma_px, s.min_threshold_m, s.max_threshold_m, 0, s.seed};
 }
 
-/// Writes bytes and keeps their FNV-1a checksum.
-class ChecksummedWriter {
- public:
-  explicit ChecksummedWriter(std::ostream& stream) : stream_(stream) {}
-  void write(const void* data, std::size_t num_bytes) {
-    stream_.write(static_cast<const char*>(data), static_cast<std::streamsize>(num_bytes));
-    checksum_ = fnv1a(checksum_, data, num_bytes);
-  }
-  std::uint64_t checksum() const { return checksum_; }
-
- private:
-  std::ostream& stream_;
-  std::uint64_t checksum_ = kFnvBasis;
-};
-
-/// Its counterpart. @throws FileError at the stream's end.
-class ChecksummedReader {
- public:
-  explicit ChecksummedReader(std::istream& stream) : stream_(stream) {}
-  void read(void* data, std::size_t num_bytes) {
-    stream_.read(static_cast<char*>(data), static_cast<std::streamsize>(num_bytes));
-    if (static_cast<std::size_t>(stream_.gcount()) != num_bytes)
-      throw FileError("keyframe scene: the data ends early; expected more bytes");
-    checksum_ = fnv1a(checksum_, data, num_bytes);
-  }
-  template <class T>
-  T read() {
-    T value{};
-    read(&value, sizeof(T));
-    return value;
-  }
-  /// Reads `count` elements, growing as they arrive, so that a damaged count cannot ask for more memory than the stream has bytes.
-  template <class T>
-  std::vector<T> read_vector(std::size_t count) {
-    constexpr std::size_t kChunk = 4096;
-    std::vector<T> values;
-    while (values.size() < count) {
-      const std::size_t begin = values.size();
-      values.resize(std::min(count, begin + kChunk));
-      read(&values[begin], (values.size() - begin) * sizeof(T));
-    }
-    return values;
-  }
-  std::uint64_t checksum() const { return checksum_; }
-
- private:
-  std::istream& stream_;
-  std::uint64_t checksum_ = kFnvBasis;
-};
-
 }  // namespace
 
 void KeyframeRelocaliserSettings::validate() const {
   validate_settings(*this);
   if (min_threshold_m >= max_threshold_m) {
-    throw InvalidSettings("setting max_threshold_m: got " + std::to_string(max_threshold_m) +
-                          ", expected more than min_threshold_m, which is " + std::to_string(min_threshold_m));
+    throw InvalidSettings("setting max_threshold_m: got " + detail::to_text(max_threshold_m) +
+                          ", expected more than min_threshold_m, which is " + detail::to_text(min_threshold_m));
   }
 }
 
@@ -171,8 +112,8 @@ std::size_t KeyframeRelocaliser::num_keyframes() const { return state_->world_fr
 float KeyframeRelocaliser::acceptance_threshold() const { return state_->settings.acceptance_threshold; }
 
 void KeyframeRelocaliser::train(const Frame& frame, const SE3& world_from_camera) {
-  FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
-  FOOTHOLD_EXPECTS(is_rigid(world_from_camera, kRigidTolerance));
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_frame_error(frame));
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_pose_error(world_from_camera));
   State& s = *state_;
   {
     const ScopedStage stage(s.context, "train/encode");
@@ -188,7 +129,7 @@ void KeyframeRelocaliser::train(const Frame& frame, const SE3& world_from_camera
 }
 
 std::vector<PoseEstimate> KeyframeRelocaliser::relocalise(const Frame& frame) {
-  FOOTHOLD_EXPECTS(describe_frame_error(frame).empty());
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_frame_error(frame));
   State& s = *state_;
   if (num_keyframes() == 0) return {};
   {
@@ -218,48 +159,30 @@ std::size_t KeyframeRelocaliser::state_bytes() const {
 }
 
 void KeyframeRelocaliser::save(std::ostream& stream) const {
-  ChecksummedWriter writer(stream);
-  const CodeSettings code = code_settings(state_->settings);
-  const std::uint64_t num_keyframes = this->num_keyframes();
-  writer.write(kMagic, sizeof(kMagic));
-  writer.write(&kVersion, sizeof(kVersion));
-  writer.write(&code, sizeof(code));
-  writer.write(&num_keyframes, sizeof(num_keyframes));
-  writer.write(state_->codes.data(), state_->codes.size() * sizeof(std::uint64_t));
-  writer.write(state_->world_from_keyframes.data(), num_keyframes * sizeof(SE3));
-  const std::uint64_t checksum = writer.checksum();
-  writer.write(&checksum, sizeof(checksum));
-  stream.flush();
-  if (!stream) throw FileError("keyframe scene: writing failed after " + std::to_string(num_keyframes) + " keyframes were to be written");
+  CheckedWriter writer(stream, kKeyframeFormat);
+  writer.write(code_settings(state_->settings));
+  writer.write(static_cast<std::uint64_t>(num_keyframes()));
+  for (const SE3& pose : state_->world_from_keyframes) writer.write_transform(pose);
+  writer.write_array(state_->codes);
+  writer.finish();
 }
 
 void KeyframeRelocaliser::load(std::istream& stream) {
-  ChecksummedReader reader(stream);
-  char magic[sizeof(kMagic)];
-  reader.read(magic, sizeof(magic));
-  if (std::memcmp(magic, kMagic, sizeof(kMagic)) != 0)
-    throw FileError("keyframe scene: this is something else; expected it to begin with FHKEYFRM");
-  const auto version = reader.read<std::uint32_t>();
-  if (version != kVersion) throw FileError("keyframe scene: version " + std::to_string(version) + "; expected " + std::to_string(kVersion));
-  const auto code = reader.read<CodeSettings>();
+  CheckedReader reader(stream, kKeyframeFormat);
+  const auto code = reader.read<CodeSettings>("settings");
   const CodeSettings expected = code_settings(state_->settings);
   if (!(code == expected)) {
-    throw FileError("keyframe scene: made with other ferns (" + std::to_string(code.num_ferns) + " with seed " + std::to_string(code.seed) +
-                    "); expected the settings of this relocaliser (" + std::to_string(expected.num_ferns) + " with seed " +
-                    std::to_string(expected.seed) + ", and equal image width, smoothing and thresholds)");
+    reader.refuse("made with other ferns (" + std::to_string(code.num_ferns) + " with seed " + std::to_string(code.seed) +
+                  "); expected the settings of this relocaliser (" + std::to_string(expected.num_ferns) + " with seed " +
+                  std::to_string(expected.seed) + ", and equal image width, smoothing and thresholds)");
   }
-  const auto num_keyframes = reader.read<std::uint64_t>();
-  if (num_keyframes > static_cast<std::uint64_t>(state_->settings.max_keyframes)) {
-    throw FileError("keyframe scene: " + std::to_string(num_keyframes) + " keyframes; expected at most " +
-                    std::to_string(state_->settings.max_keyframes));
-  }
-  auto codes = reader.read_vector<std::uint64_t>(num_keyframes * state_->encoder.num_words());
-  auto poses = reader.read_vector<SE3>(num_keyframes);
-  const std::uint64_t checksum = reader.checksum();
-  if (reader.read<std::uint64_t>() != checksum) throw FileError("keyframe scene: the checksum does not match; the data is damaged");
-  for (const SE3& pose : poses) {
-    if (!is_rigid(pose, kRigidTolerance)) throw FileError("keyframe scene: a pose is not rigid; the data is damaged");
-  }
+  const auto num_keyframes = reader.read<std::uint64_t>("number of keyframes");
+  reader.check_range("keyframes", num_keyframes, 0, static_cast<std::uint64_t>(state_->settings.max_keyframes));
+  std::vector<SE3> poses;
+  while (poses.size() < num_keyframes) poses.push_back(reader.read_transform("pose"));
+  const std::uint64_t num_words = num_keyframes * state_->encoder.num_words();
+  auto codes = reader.read_array<std::uint64_t>("words of codes", num_words, num_words);
+  reader.finish();
   state_->codes = std::move(codes);
   state_->world_from_keyframes = std::move(poses);
 }

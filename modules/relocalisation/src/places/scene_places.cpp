@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "foothold/base/binary_stream.h"
+#include "foothold/base/checked_stream.h"
 #include "foothold/base/random.h"
 
 namespace foothold {
@@ -38,27 +38,28 @@ std::size_t ScenePlaces::state_bytes() const {
   return sum;
 }
 
-void ScenePlaces::save(std::ostream& stream) const {
-  write_value(stream, static_cast<std::uint32_t>(places_.size()));
+void ScenePlaces::save(CheckedWriter& writer) const {
+  writer.write(static_cast<std::uint64_t>(places_.size()));
   for (const Place& place : places_) {
-    for (int k = 0; k < 3; ++k) write_value(stream, place.origin_world[k]);
-    place.learnt.save(stream);
-    place.reservoirs.save(stream);
-    place.modes.save(stream);
+    for (int k = 0; k < 3; ++k) writer.write(place.origin_world[k]);
+    place.learnt.save(writer);
+    place.reservoirs.save(writer);
+    place.modes.save(writer);
   }
 }
 
-void ScenePlaces::load(std::istream& stream) {
-  const auto num_places = read_value<std::uint32_t>(stream, "number of places");
+void ScenePlaces::load(CheckedReader& reader, std::uint64_t num_frames) {
+  const auto num_places = reader.read<std::uint64_t>("number of places");
+  reader.check_range("places", num_places, 0, num_frames);  // a frame begins one at most
   places_.clear();
-  for (std::uint32_t i = 0; i < num_places; ++i) {
+  for (std::uint64_t i = 0; i < num_places; ++i) {
     Eigen::Vector3f origin_world;
-    for (int k = 0; k < 3; ++k) origin_world[k] = read_value<float>(stream, "origin of a place");
-    if (!origin_world.allFinite()) throw FileError("the saved scene has a place whose origin is not finite");
+    for (int k = 0; k < 3; ++k) origin_world[k] = reader.read<float>("origin of a place");
+    if (!origin_world.allFinite()) reader.refuse("has a place whose origin is not finite");
     Place place = make_place(origin_world);
-    place.learnt.load(context_, stream);
-    place.reservoirs.load(stream);
-    place.modes.load(stream);
+    place.learnt.load(context_, reader);
+    place.reservoirs.load(reader);
+    place.modes.load(reader);
     place.is_used = true;
     place.is_settled = false;
     places_.push_back(std::move(place));

@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <iosfwd>
 #include <vector>
 
 #include "foothold/base/context.h"
@@ -14,6 +13,9 @@
 #include "places/place.h"
 
 namespace foothold {
+
+class CheckedReader;
+class CheckedWriter;
 
 /// All places of a scene.
 ///
@@ -35,9 +37,9 @@ class ScenePlaces {
   std::size_t state_bytes() const;
   void clear() { places_.clear(); }
 
-  void save(std::ostream& stream) const;
-  /// @throws FileError if the stream ends or contradicts itself.
-  void load(std::istream& stream);
+  void save(CheckedWriter& writer) const;
+  /// @param num_frames  that were learnt. @throws FileError if the scene ends early or contradicts itself.
+  void load(CheckedReader& reader, std::uint64_t num_frames);
 
  private:
   Place make_place(const Eigen::Vector3f& origin_world) const;

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "foothold/base/binary_stream.h"
+#include "foothold/base/checked_stream.h"
 #include "foothold/base/exec/dispatch.h"
 #include "foothold/base/random.h"
 #include "reservoirs/leaf_reservoirs_kernels.h"
@@ -56,21 +56,21 @@ void LeafReservoirs::insert(const Context& context, const TrainingExamples& exam
   });
 }
 
-void LeafReservoirs::save(std::ostream& stream) const {
-  write_array(stream, num_seen_.to_host());
-  write_array(stream, num_changed_.to_host());
-  write_array(stream, blocks_.blocks_to_host());
-  write_array(stream, blocks_.used_pool_to_host());
+void LeafReservoirs::save(CheckedWriter& writer) const {
+  writer.write_array(num_seen_.to_host());
+  writer.write_array(num_changed_.to_host());
+  writer.write_array(blocks_.blocks_to_host());
+  writer.write_array(blocks_.used_pool_to_host());
 }
 
-void LeafReservoirs::load(std::istream& stream) {
+void LeafReservoirs::load(CheckedReader& reader) {
   const auto num_leaves = static_cast<std::uint64_t>(num_leaves_);
   const int max_blocks = reservoir_blocks_for(settings_.capacity);
   const std::uint64_t num_blocks = num_leaves * static_cast<std::uint64_t>(max_blocks);
-  const auto num_seen = read_array<std::uint32_t>(stream, "reservoir counts", num_leaves, num_leaves);
-  const auto num_changed = read_array<std::uint32_t>(stream, "change counts", num_leaves, num_leaves);
-  const auto blocks = read_array<std::int32_t>(stream, "block references", num_blocks, num_blocks);
-  const auto pool = read_array<ReservoirBlock>(stream, "reservoir blocks", 0, num_blocks);
+  const auto num_seen = reader.read_array<std::uint32_t>("reservoir counts", num_leaves, num_leaves);
+  const auto num_changed = reader.read_array<std::uint32_t>("change counts", num_leaves, num_leaves);
+  const auto blocks = reader.read_array<std::int32_t>("block references", num_blocks, num_blocks);
+  const auto pool = reader.read_array<ReservoirBlock>("reservoir blocks", 0, num_blocks);
   const auto num_used = static_cast<std::int64_t>(pool.size());
   std::vector<bool> owned(pool.size(), false);
   std::uint64_t num_owned = 0;
@@ -79,16 +79,14 @@ void LeafReservoirs::load(std::istream& stream) {
     for (int k = 0; k < reservoir_blocks_for(stored); ++k) {
       const std::int32_t block = blocks[leaf * static_cast<std::uint64_t>(max_blocks) + static_cast<std::uint64_t>(k)];
       if (block < 0 || block >= num_used)
-        throw FileError("the saved scene refers to reservoir block " + std::to_string(block) + ", there are " + std::to_string(num_used));
-      if (owned[static_cast<std::size_t>(block)])
-        throw FileError("the saved scene gives reservoir block " + std::to_string(block) + " to two leaves");
+        reader.refuse("refers to reservoir block " + std::to_string(block) + ", there are " + std::to_string(num_used));
+      if (owned[static_cast<std::size_t>(block)]) reader.refuse("gives reservoir block " + std::to_string(block) + " to two leaves");
       owned[static_cast<std::size_t>(block)] = true;
       ++num_owned;
     }
   }
   if (num_owned != pool.size()) {
-    throw FileError("the saved scene has " + std::to_string(pool.size()) + " reservoir blocks, of which leaves own " +
-                    std::to_string(num_owned));
+    reader.refuse("has " + std::to_string(pool.size()) + " reservoir blocks, of which leaves own " + std::to_string(num_owned));
   }
   num_seen_.assign(Span<const std::uint32_t>(num_seen));
   num_changed_.assign(Span<const std::uint32_t>(num_changed));

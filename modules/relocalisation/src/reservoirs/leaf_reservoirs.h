@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 
 #include "examples/training_examples.h"
 #include "foothold/base/array.h"
@@ -13,6 +12,9 @@
 #include "reservoirs/block_lists.h"
 
 namespace foothold {
+
+class CheckedReader;
+class CheckedWriter;
 
 inline constexpr int kReservoirBlockSize = 16;
 
@@ -67,8 +69,8 @@ class LeafReservoirs {
   std::size_t state_bytes() const;
   void clear();
 
-  void save(std::ostream& stream) const;
-  void load(std::istream& stream);
+  void save(CheckedWriter& writer) const;
+  void load(CheckedReader& reader);
 
  private:
   ReservoirSettings settings_;

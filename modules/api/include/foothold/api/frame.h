@@ -26,6 +26,13 @@ bool same_calibration(const RgbdCalibration& a, const RgbdCalibration& b);
 
 /// A non-owning RGB-D frame. Depth is z in metres, dense rows; zero, negative and NaN all mean "no measurement" (InfiniTAM writes -1).
 /// Depth and colour live in the same kind of memory and have the same size.
+///
+/// The images belong to the caller. They must stay alive and unchanged during the call that the frame is passed to; nobody looks at them
+/// afterwards, but for CUDA memory as Relocaliser::train() says.
+///
+/// Focal lengths are positive: u points right and v down. For a camera model with fy < 0, whose v points up, flip the rows of both images,
+/// or negate fy, set cy to height - 1 - cy and flip the rows. depth_from_colour is a rotation and a translation in metres; matrices that
+/// mirror (OpenGL's axes) or scale (millimetres) are refused.
 struct Frame {
   ImageView<const float> depth;
   ColourView colour;
@@ -34,7 +41,8 @@ struct Frame {
   double timestamp_s = 0.0;
 };
 
-/// Checks what every consumer of frames relies on: images present, equal sizes, one kind of memory, valid intrinsics.
+/// Checks what every consumer of frames relies on: images present, equal sizes, one kind of memory, valid intrinsics, rigid
+/// depth_from_colour. Whoever takes frames throws ContractViolation with this text for one that breaks it (see contract.h).
 /// @return Empty if the frame is well formed, else what is wrong with it.
 std::string describe_frame_error(const Frame& frame);
 

@@ -25,15 +25,22 @@ struct PoseEstimate {
 /// pixel of the colour image, whatever the calibration says.
 ///
 /// One object serves one thread of control. Frames may live in host or CUDA memory, as the implementation's context demands.
+///
+/// Every function throws ContractViolation with a text that says what is wrong for a malformed frame or pose (describe_frame_error(),
+/// describe_pose_error()), CudaError if the device fails, and std::bad_alloc. None throws because of what the camera sees.
 class Relocaliser {
  public:
   virtual ~Relocaliser() = default;
 
   /// Learns from a frame whose pose is trusted. Bounded work. A frame without valid depth teaches nothing.
-  /// @pre describe_frame_error(frame) is empty and the pose is rigid.
+  ///
+  /// May return before the device has read a frame in CUDA memory: its images may be overwritten by work on the context's stream (see
+  /// ContextOptions::cuda_stream), or by anyone once Context::synchronise() has returned. Images in host memory are free at once.
+  /// @pre describe_frame_error(frame) and describe_pose_error(world_from_camera) are empty.
   virtual void train(const Frame& frame, const SE3& world_from_camera) = 0;
 
   /// Proposes camera poses for a frame, best first, each with a confidence; empty when none is plausible, as before any training.
+  /// The frame's images are free when it returns.
   /// @pre describe_frame_error(frame) is empty.
   virtual std::vector<PoseEstimate> relocalise(const Frame& frame) = 0;
 

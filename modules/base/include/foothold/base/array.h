@@ -50,11 +50,12 @@ class Array {
 
  public:
   explicit Array(MemoryKind memory = MemoryKind::kHost) : memory_(memory) {}
-  Array(MemoryKind memory, std::size_t size) : memory_(memory) { resize(size); }
+  // Delegating, so that the destructor frees what was allocated before an exception.
+  Array(MemoryKind memory, std::size_t size) : Array(memory) { resize(size); }
   /// Copies host elements into memory of the given kind.
-  Array(MemoryKind memory, Span<const T> host) : memory_(memory) { assign(host); }
+  Array(MemoryKind memory, Span<const T> host) : Array(memory) { assign(host); }
 
-  Array(const Array& other) : memory_(other.memory_) { copy_from(other); }
+  Array(const Array& other) : Array(other.memory_) { copy_from(other); }
   Array(Array&& other) noexcept { swap(other); }
   Array& operator=(Array other) noexcept {
     swap(other);
@@ -86,11 +87,12 @@ class Array {
   /// Makes room for `capacity` elements, exactly, keeping the contents.
   void reserve(std::size_t capacity) {
     if (capacity <= capacity_) return;
-    T* larger = static_cast<T*>(detail::allocate_memory(memory_, capacity * sizeof(T)));
-    if (size_ != 0) detail::copy_memory(memory_, larger, memory_, data_, size_ * sizeof(T));
-    detail::free_memory(memory_, data_);
-    data_ = larger;
-    capacity_ = capacity;
+    Array larger(memory_);
+    larger.data_ = static_cast<T*>(detail::allocate_memory(memory_, capacity * sizeof(T)));
+    larger.capacity_ = capacity;
+    larger.size_ = size_;
+    if (size_ != 0) detail::copy_memory(memory_, larger.data_, memory_, data_, size_ * sizeof(T));
+    swap(larger);
   }
   /// Sets the size, keeping the first elements; grows by at least a quarter when it must grow.
   void resize(std::size_t size) {

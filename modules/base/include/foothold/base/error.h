@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "foothold/base/platform.h"
+
 namespace foothold {
 
 /// Base of everything Foothold throws because a user or a device asked for the impossible.

@@ -3,6 +3,11 @@
 /// What differs between compilers and processors: the marks that let one function body serve host and device.
 #pragma once
 
+#if __cplusplus < 201703L
+#error "Foothold needs C++17: set CMAKE_CXX_STANDARD to 17, or -std=c++17, for what includes it, and remove an older -std from its flags."
+#include <foothold_needs_cxx17>  // ends the compilation here, before a page of errors that say less
+#endif
+
 #if defined(__CUDACC__)
 #define FOOTHOLD_HD __host__ __device__
 #else

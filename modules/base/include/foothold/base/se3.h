@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <string>
 
 #include "foothold/base/platform.h"
 
@@ -60,9 +61,16 @@ Tangent6 se3_log(const SE3& transform);
 /// The rotation nearest to a matrix in the Frobenius norm, by SVD. @pre The matrix has positive determinant.
 Eigen::Matrix3f nearest_rotation(const Eigen::Matrix3f& matrix);
 
+/// What passes for a rotation wherever poses are given or read: files print few digits, and trackers multiply in single precision.
+inline constexpr float kRigidTolerance = 1e-2F;
+
 /// True if every entry is finite and rotation^T rotation differs from the identity by at most `tolerance` per entry, with positive
 /// determinant.
-bool is_rigid(const SE3& transform, float tolerance);
+bool is_rigid(const SE3& transform, float tolerance = kRigidTolerance);
+
+/// What keeps a transform from being rigid, within kRigidTolerance: numbers that are not finite, a rotation that mirrors, scales or shears.
+/// @param name  how the text calls it. @return Empty if it is rigid.
+std::string describe_pose_error(const SE3& pose, const std::string& name = "the pose");
 
 /// The angle between two orientations [rad], in [0, pi]; accurate for tiny angles, unlike acos of the trace.
 float rotation_distance_rad(const SE3& a, const SE3& b);

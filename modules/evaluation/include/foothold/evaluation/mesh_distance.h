@@ -3,7 +3,7 @@
 /// How far one surface lies from another.
 #pragma once
 
-#include "foothold/api/mesh.h"
+#include "foothold/base/mesh.h"
 
 namespace foothold {
 

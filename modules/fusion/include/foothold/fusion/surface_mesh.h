@@ -3,7 +3,7 @@
 /// Turns the map into triangles.
 #pragma once
 
-#include "foothold/api/mesh.h"
+#include "foothold/base/mesh.h"
 #include "foothold/fusion/tsdf_volume.h"
 
 namespace foothold {

@@ -5,7 +5,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <vector>
 
@@ -17,6 +16,8 @@
 #include "foothold/base/settings.h"
 
 namespace foothold {
+
+class CheckedReader;
 
 struct TsdfView;    // what kernels see of a volume; private
 struct VoxelBlock;  // 8 x 8 x 8 voxels; private
@@ -117,7 +118,7 @@ class TsdfVolume : public Persistent {
   void reserve_blocks(int num_blocks);
   void add_blocks(int num_new);
   void rebuild_table();
-  void read_blocks(const std::function<void(void*, std::size_t)>& read, int num_blocks);
+  void read_blocks(CheckedReader& reader, int num_blocks);
   void swap(TsdfVolume& other) noexcept;
 
   Context context_;

@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "foothold/api/relocaliser.h"
+#include "foothold/base/contract.h"
 
 namespace foothold::infinitam {
 
@@ -50,6 +51,7 @@ Intrinsics intrinsics(const Projection& projection) {
 }  // namespace detail
 
 /// Reads a rigid transform from a column-major 4x4 matrix; its rotation is re-orthonormalised, as trackers accumulate rounding.
+/// @pre describe_pose_error() of the matrix is empty: it neither mirrors nor scales.
 template <class Matrix>
 SE3 to_se3(const Matrix& matrix) {
   SE3 result;
@@ -57,6 +59,7 @@ SE3 to_se3(const Matrix& matrix) {
     for (int row = 0; row < 3; ++row) result.rotation(row, column) = matrix.m[4 * column + row];
   }
   for (int row = 0; row < 3; ++row) result.translation[row] = matrix.m[12 + row];
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_pose_error(result, "the matrix"));
   result.rotation = nearest_rotation(result.rotation);
   return result;
 }
@@ -90,7 +93,8 @@ void set_world_from_camera(TrackingState& state, const SE3& world_from_camera) {
 /// Views the images of a host's view. They must stay alive, and unchanged, while the frame is used.
 ///
 /// Colour comes as the host has it: hosts that calibrate the two cameras instead of registering their images hand over unregistered colour,
-/// with which the camera is found less surely. register_colour() warps a copy on the host, for training and relocalisation alike.
+/// with which the camera is found less surely. register_colour() of module frames warps it on the host, for training and relocalisation
+/// alike.
 ///
 /// @param device  The host's own name for the memory that its images are up to date in, as GetData() takes it.
 /// @param memory  The same memory in Foothold's terms.

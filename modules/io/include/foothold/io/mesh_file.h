@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "foothold/api/mesh.h"
+#include "foothold/base/mesh.h"
 
 namespace foothold {
 

@@ -47,10 +47,18 @@ struct ForestView {
   int num_leaves = 0;  ///< of all trees; leaf numbers do not repeat between trees
 };
 
+/// What a forest may have at most: files and settings ask for memory and time in proportion.
+inline constexpr int kMaxForestTrees = 32;
+inline constexpr int kMaxForestDepth = 32;  ///< splits on a path from root to leaf
+inline constexpr int kMaxForestLeaves = 1 << 20;
+inline constexpr int kMaxForestFeatures = 1 << 16;
+inline constexpr int kMaxForestProvenanceBytes = 1 << 20;
+
 /// An immutable forest in host memory.
 class Forest {
  public:
-  /// @throws InvalidSettings if a node, feature or leaf reference is out of range, a node has two parents, or the forest is empty.
+  /// @throws InvalidSettings if a node, feature or leaf reference is out of range, a node has two parents or none, leaves are not numbered
+  /// from 0 without gaps, the forest is empty, or it has more of something than the limits above.
   Forest(std::vector<ForestFeature> features, std::vector<ForestNode> nodes, std::vector<std::int32_t> roots, std::string provenance);
 
   const std::vector<ForestFeature>& features() const { return features_; }
@@ -82,13 +90,13 @@ Forest make_random_forest(const RandomForestSettings& settings);
 /// part of the library; no file is read.
 Forest default_forest();
 
-/// Writes a forest in Foothold's binary format (docs/forest-format.md): little-endian, versioned, checksummed. @throws FileError
+/// Writes a forest in Foothold's binary format (docs/forest-format.md). @throws FileError
 void write_forest(std::ostream& stream, const Forest& forest);
 /// Reads what write_forest() wrote. `name` stands for the stream in messages.
 /// @throws FileError for a wrong magic, version or checksum, a truncated stream, or an inconsistent forest.
 Forest read_forest(std::istream& stream, const std::string& name);
 
-/// Writes to a temporary name beside the file and renames it, so that the old file stays whole if anything fails. @throws FileError
+/// Replaces the file once the new one is complete (AtomicFile), so that the old one stays whole if anything fails. @throws FileError
 void save_forest(const std::string& path, const Forest& forest);
 /// @throws FileError naming the file, the value found and what was expected.
 Forest load_forest(const std::string& path);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "foothold/api/raw_sequence.h"
+#include "foothold/frames/raw_sequence.h"
 
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -12,20 +10,17 @@
 #include "foothold/base/error.h"
 #include "support/catch.h"
 #include "support/error_message.h"
+#include "support/mend_checksums.h"
 #include "support/random_seed.h"
+#include "support/temp_folder.h"
 
 namespace foothold {
 namespace {
 
 /// A file that is deleted behind the test.
 struct TempFile {
-  TempFile() {
-    Random random = test::test_random();
-    path = (std::filesystem::temp_directory_path() / ("foothold_raw_" + std::to_string(random.bits()) + std::to_string(random.bits())))
-               .string();
-  }
-  ~TempFile() { std::remove(path.c_str()); }
-  std::string path;
+  test::TempFolder folder;
+  std::string path = folder / "recording.raw";
 };
 
 RgbdFrame make_frame(Random& random, int i) {
@@ -108,22 +103,39 @@ TEST_CASE("raw recording: refuses what is missing, unfinished or damaged, naming
   }
   REQUIRE(test::contains(message(), "unfinished"));
 
-  write(file.path, {make_frame(random, 0)});
-  std::ifstream in(file.path, std::ios::binary);
-  const std::string good((std::istreambuf_iterator<char>(in)), {});
-  const auto with = [&](std::size_t at, const std::string& bytes) {
+  write(file.path, {make_frame(random, 0), make_frame(random, 2)});
+  const std::string good = test::read_text(file.path);
+  for (std::size_t length = 0; length < good.size(); ++length) {
+    test::write_text(file.path, good.substr(0, length));
+    REQUIRE(test::contains(message(), file.path));
+  }
+  test::write_text(file.path, good + "x");
+  REQUIRE(test::contains(message(), "unfinished or damaged"));
+  const auto with = [&](std::size_t place, const std::string& bytes) {
     std::string damaged = good;
-    damaged.replace(at, bytes.size(), bytes);
-    std::ofstream(file.path, std::ios::binary) << damaged;
+    damaged.replace(place, bytes.size(), bytes);
+    std::size_t begin = 0;
+    test::mend_checksums(damaged, begin);
+    test::write_text(file.path, damaged);
     return message();
   };
-  REQUIRE(test::contains(with(8, "\2"), "version 2"));
-  REQUIRE(test::contains(with(12, std::string(4, '\xff')), "-1 frames"));
-  REQUIRE(test::contains(with(12, "\2"), "bytes"));
+  REQUIRE(test::contains(with(8, "\1"), "version 1, expected version 2"));
   REQUIRE(test::contains(with(16, std::string(4, '\x7f')), "pixels"));
   REQUIRE(test::contains(with(24, std::string(4, '\0')), "calibration"));
-  std::ofstream(file.path, std::ios::binary) << good.substr(0, good.size() - 1);
-  REQUIRE(test::contains(message(), "bytes"));
+  REQUIRE(test::contains(with(24 + 32, std::string(4, '\x7f')), "not rigid"));
+}
+
+TEST_CASE("raw recording: a damaged byte is noticed when its frame is loaded, and spares the others") {
+  const TempFile file;
+  Random random = test::test_random();
+  write(file.path, {make_frame(random, 0), make_frame(random, 1), make_frame(random, 2)});
+  std::string bytes = test::read_text(file.path);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  test::write_text(file.path, bytes);
+  const auto sequence = open_raw_sequence(file.path);
+  REQUIRE_NOTHROW(sequence->load(0));
+  REQUIRE(test::contains(test::error_message<FileError>([&] { sequence->load(1); }), file.path + ": frame 1: damaged"));
+  REQUIRE_NOTHROW(sequence->load(2));
 }
 
 }  // namespace

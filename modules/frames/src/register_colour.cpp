@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "foothold/api/register_colour.h"
+#include "foothold/frames/register_colour.h"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cstdint>
-#include <iterator>
 #include <vector>
 
 #include "foothold/base/contract.h"
@@ -14,11 +13,11 @@ namespace foothold {
 namespace {
 
 /// About the median of the valid depths [m], from a sixteenth of them; 2 m, amid the range of depth cameras, if there is none.
-float median_depth_m(const Image<float>& depth) {
+float median_depth_m(const ImageView<const float>& depth) {
   constexpr int kStep = 4;
   std::vector<float> valid;
-  for (int v = 0; v < depth.height(); v += kStep) {
-    for (int u = 0; u < depth.width(); u += kStep) {
+  for (int v = 0; v < depth.height; v += kStep) {
+    for (int u = 0; u < depth.width; u += kStep) {
       if (is_valid_depth(depth(u, v))) valid.push_back(depth(u, v));
     }
   }
@@ -36,11 +35,13 @@ constexpr int kSteps = 64;
 class SpreadColour {
  public:
   /// Repeats the last column and row once, so that every position in the image has four neighbours.
-  explicit SpreadColour(const Image<Rgb8>& colour) : stride_(static_cast<std::size_t>(colour.width()) + 1) {
-    pixels_.reserve(stride_ * (static_cast<std::size_t>(colour.height()) + 1));
-    for (int v = 0; v <= colour.height(); ++v) {
-      const Rgb8* row = &colour(0, std::min(v, colour.height() - 1));
-      std::transform(row, row + colour.width(), std::back_inserter(pixels_), spread);
+  explicit SpreadColour(const ColourView& colour) : stride_(static_cast<std::size_t>(colour.width) + 1) {
+    const auto bytes_per_pixel = static_cast<std::size_t>(colour.bytes_per_pixel);
+    const std::size_t bytes_per_row = static_cast<std::size_t>(colour.width) * bytes_per_pixel;
+    pixels_.reserve(stride_ * (static_cast<std::size_t>(colour.height) + 1));
+    for (int v = 0; v <= colour.height; ++v) {
+      const std::uint8_t* row = colour.data + static_cast<std::size_t>(std::min(v, colour.height - 1)) * bytes_per_row;
+      for (std::size_t byte = 0; byte < bytes_per_row; byte += bytes_per_pixel) pixels_.push_back(spread(row + byte));
       pixels_.push_back(pixels_.back());
     }
   }
@@ -60,8 +61,8 @@ class SpreadColour {
  private:
   static constexpr int kApart = 21;
 
-  static std::uint64_t spread(Rgb8 colour) {
-    return colour.r | static_cast<std::uint64_t>(colour.g) << kApart | static_cast<std::uint64_t>(colour.b) << 2 * kApart;
+  static std::uint64_t spread(const std::uint8_t* rgb) {
+    return rgb[0] | static_cast<std::uint64_t>(rgb[1]) << kApart | static_cast<std::uint64_t>(rgb[2]) << 2 * kApart;
   }
 
   std::size_t stride_;
@@ -89,14 +90,14 @@ PixelMap pixel_map(const RgbdCalibration& calibration) {
 struct RowPositions {
   std::vector<int> u_steps, v_steps;
 
-  void find(const PixelMap& map, const Image<float>& depth, int v, float default_depth_m) {
-    const float* measured_m = &depth(0, v);
+  void find(const PixelMap& map, const Frame& frame, int v, float default_depth_m) {
+    const float* measured_m = &frame.depth(0, v);
     const Eigen::Vector3f x = map.from_pixel.col(0);
     const Eigen::Vector3f row = map.from_pixel.col(1) * static_cast<float>(v) + map.from_pixel.col(2);
     const Eigen::Vector3f offset = map.offset;
-    const auto max_u = static_cast<float>(depth.width() - 1);
-    const auto max_v = static_cast<float>(depth.height() - 1);
-    for (int u = 0; u < depth.width(); ++u) {  // without branches, for the compiler to do many at a time
+    const auto max_u = static_cast<float>(frame.colour.width - 1);
+    const auto max_v = static_cast<float>(frame.colour.height - 1);
+    for (int u = 0; u < frame.depth.width; ++u) {  // without branches, for the compiler to do many at a time
       const float depth_m = is_valid_depth(measured_m[u]) ? measured_m[u] : default_depth_m;
       const auto along = [&](int axis) { return depth_m * (x[axis] * static_cast<float>(u) + row[axis]) + offset[axis]; };
       const float z = along(2);
@@ -109,27 +110,51 @@ struct RowPositions {
   }
 };
 
+/// What is wrong with a frame besides a colour image of another size.
+std::string describe_error_but_size(Frame frame) {
+  if (frame.colour.empty()) return describe_frame_error(frame);
+  frame.colour.width = frame.depth.width;
+  frame.colour.height = frame.depth.height;
+  return describe_frame_error(frame);
+}
+
 }  // namespace
 
 bool is_registered(const RgbdCalibration& calibration) {
   return same_calibration(calibration, {calibration.depth, calibration.depth, SE3{}});
 }
 
-void register_colour(RgbdFrame& frame) {
-  FOOTHOLD_EXPECTS(frame.colour.width() == frame.depth.width() && frame.colour.height() == frame.depth.height());
-  if (is_registered(frame.calibration) || frame.depth.empty()) return;
+bool is_registered(const Frame& frame) {
+  return is_registered(frame.calibration) && frame.colour.width == frame.depth.width && frame.colour.height == frame.depth.height;
+}
+
+Frame register_colour(const Frame& frame, Image<Rgb8>& registered) {
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_error_but_size(frame));
+  FOOTHOLD_EXPECTS(frame.depth.memory == MemoryKind::kHost);
+  if (is_registered(frame)) return frame;
   const PixelMap map = pixel_map(frame.calibration);
   const float default_depth_m = median_depth_m(frame.depth);
-  const SpreadColour colour(frame.colour);
-  const auto width = static_cast<std::size_t>(frame.depth.width());
-  RowPositions at{std::vector<int>(width), std::vector<int>(width)};
-  for (int v = 0; v < frame.depth.height(); ++v) {
-    at.find(map, frame.depth, v, default_depth_m);
-    Rgb8* registered = &frame.colour(0, v);
-    for (std::size_t u = 0; u < width; ++u) registered[u] = at.u_steps[u] < 0 ? Rgb8{} : colour.at(at.u_steps[u], at.v_steps[u]);
+  const SpreadColour colour(frame.colour);  // a copy: the frame may view `registered`
+  const auto width = static_cast<std::size_t>(frame.depth.width);
+  if (registered.width() != frame.depth.width || registered.height() != frame.depth.height) {
+    registered = Image<Rgb8>(frame.depth.width, frame.depth.height);
   }
-  frame.calibration.colour = frame.calibration.depth;
-  frame.calibration.depth_from_colour = SE3{};
+  RowPositions at{std::vector<int>(width), std::vector<int>(width)};
+  for (int v = 0; v < frame.depth.height; ++v) {
+    at.find(map, frame, v, default_depth_m);
+    Rgb8* row = &registered(0, v);
+    for (std::size_t u = 0; u < width; ++u) row[u] = at.u_steps[u] < 0 ? Rgb8{} : colour.at(at.u_steps[u], at.v_steps[u]);
+  }
+  Frame result = frame;
+  result.colour = colour_view(registered);
+  result.calibration.colour = frame.calibration.depth;
+  result.calibration.depth_from_colour = SE3{};
+  return result;
+}
+
+void register_colour(RgbdFrame& frame) {
+  if (frame.depth.empty()) return;
+  frame.calibration = register_colour(frame.view(), frame.colour).calibration;
 }
 
 }  // namespace foothold

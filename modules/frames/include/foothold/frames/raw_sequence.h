@@ -16,7 +16,7 @@ namespace foothold {
 /// no measurement), 8-bit colour, pose and time. The file is complete once finish() has written the number of frames.
 class RawSequenceWriter {
  public:
-  /// @param stream  Must be seekable and opened in binary mode; the recording begins where it stands.
+  /// @param stream  Opened in binary mode; the recording is all that it holds.
   explicit RawSequenceWriter(std::ostream& stream) : stream_(stream) {}
 
   /// @pre describe_frame_error(frame.view()) is empty; size and calibration are those of the first frame. @throws FileError
@@ -27,7 +27,7 @@ class RawSequenceWriter {
 
  private:
   std::ostream& stream_;
-  std::streampos begin_ = 0;
+  std::uint64_t head_checksum_ = 0;
   int num_frames_ = 0;
   int width_ = 0;
   int height_ = 0;

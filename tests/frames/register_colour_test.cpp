@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "foothold/api/register_colour.h"
+#include "foothold/frames/register_colour.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "foothold/base/error.h"
 #include "support/catch.h"
+#include "support/error_message.h"
 #include "support/random_seed.h"
 
 namespace foothold {
@@ -154,6 +156,63 @@ TEST_CASE("register_colour: a frame without any depth does not fail") {
   frame.depth = Image<float>(64, 48, 0.0F);
   register_colour(frame);
   CHECK(frame.colour(32, 24).b == 7);
+}
+
+TEST_CASE("register_colour: RGB and RGBA in the caller's memory give the same, and the frame views the caller's image") {
+  const RgbdFrame owned = wall_frame(kinect_like(), 1.2F);
+  std::vector<std::uint8_t> rgba;
+  for (std::size_t i = 0; i < owned.colour.size(); ++i) {
+    const Rgb8 pixel = owned.colour.data()[i];
+    rgba.insert(rgba.end(), {pixel.r, pixel.g, pixel.b, 99});
+  }
+  Frame frame = owned.view();
+  frame.colour = {rgba.data(), 64, 48, 4, MemoryKind::kHost};
+  RgbdFrame expected = owned;
+  register_colour(expected);
+  Image<Rgb8> registered;
+  const Frame result = register_colour(frame, registered);
+  CHECK(is_registered(result));
+  CHECK(describe_frame_error(result).empty());
+  CHECK(result.depth.data == owned.depth.data());
+  CHECK(result.colour.data == &registered.data()->r);
+  for (std::size_t i = 0; i < registered.size(); ++i) CHECK(same(registered.data()[i], expected.colour.data()[i]));
+
+  const Rgb8* const memory = registered.data();
+  register_colour(frame, registered);
+  CHECK(registered.data() == memory);  // kept
+  CHECK(register_colour(result, registered).colour.data == result.colour.data);
+}
+
+TEST_CASE("register_colour: colour of another size is warped to that of depth") {
+  RgbdFrame frame = wall_frame(kinect_like(), 1.2F);
+  RgbdFrame same_size = frame;
+  register_colour(same_size);
+  // The same camera with twice the resolution, each pixel four times.
+  Image<Rgb8> large(128, 96);
+  for (int v = 0; v < 96; ++v) {
+    for (int u = 0; u < 128; ++u) large(u, v) = frame.colour(u / 2, v / 2);
+  }
+  frame.colour = large;
+  frame.calibration.colour = frame.calibration.colour.scaled(2.0F);
+  CHECK_FALSE(is_registered(frame.view()));
+  register_colour(frame);
+  REQUIRE(frame.colour.width() == 64);
+  REQUIRE(frame.colour.height() == 48);
+  constexpr int kTolerance = 2;  // grey levels: up to two differ between neighbours
+  for (int v = 8; v < 40; ++v) {
+    for (int u = 8; u < 56; ++u) CHECK(std::abs(frame.colour(u, v).r - same_size.colour(u, v).r) <= kTolerance);
+  }
+}
+
+TEST_CASE("register_colour: a malformed frame breaks the contract, and the text says how") {
+  RgbdFrame frame = wall_frame(kinect_like(), 1.2F);
+  frame.calibration.colour.fy = -50.0F;
+  Image<Rgb8> registered;
+  CHECK(test::contains(test::error_message<ContractViolation>([&] { register_colour(frame.view(), registered); }), "fy = -50"));
+  frame.calibration.colour.fy = 50.0F;
+  Frame on_device = frame.view();
+  on_device.depth.memory = on_device.colour.memory = MemoryKind::kCuda;
+  CHECK_THROWS_AS(register_colour(on_device, registered), ContractViolation);
 }
 
 }  // namespace foothold

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "foothold/api/frame_uploader.h"
+#include "foothold/frames/frame_uploader.h"
 
 #include "foothold/base/contract.h"
 
