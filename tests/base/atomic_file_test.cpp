@@ -83,7 +83,7 @@ TEST_CASE("AtomicFile: two writers of one file do not disturb each other, and th
   CHECK(temp.num_files() == 1);
 }
 
-TEST_CASE("AtomicFile: what a writer that was killed left behind is cleared by the next; what a living one writes is not") {
+TEST_CASE("AtomicFile: what a writer that was killed left behind is cleared by the next, and what a living one writes is not") {
   const TempFolder temp;
   const AtomicFile living(temp / "a.txt");
   const pid_t child = ::fork();

@@ -244,7 +244,7 @@ TEST_CASE("IcpTracker: several alignments at once end where each ends alone") {
   REQUIRE_FALSE(together.back().measures.well_posed);
 }
 
-TEST_CASE("IcpLevels: two, of which the finest has the pixels of the reduced image; others than the pyramid's are refused") {
+TEST_CASE("IcpLevels: two, of which the finest has the pixels of the reduced image, and others than the pyramid's are refused") {
   for (const auto& [divisor, finest] : {std::pair{1, 0}, {2, 1}, {4, 2}, {5, 2}, {8, 3}, {1000, 5}}) {
     REQUIRE(IcpLevels::for_divisor(divisor).finest == finest);
     REQUIRE(IcpLevels::for_divisor(divisor).coarsest == finest + 1);
