@@ -8,9 +8,6 @@
 
 namespace foothold::apps {
 
-/// Why no window can be opened here, such as a missing display; empty if one can.
-std::string describe_missing_display();
-
 /// Shows pictures and takes keys. For the main thread.
 class ViewWindow {
  public:

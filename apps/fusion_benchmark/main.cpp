@@ -8,6 +8,7 @@
 #include "common/json.h"
 #include "common/override_settings.h"
 #include "common/progress_bar.h"
+#include "common/recording_options.h"
 #include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
 #include "foothold/evaluation/trajectory_error.h"
@@ -26,6 +27,7 @@ struct Options {
   std::string json_file;
   std::string trajectory_file;
   DeviceOptions device;
+  SequenceOptions recording;
 };
 
 FusionSettings settings_of(const Options& options) {
@@ -73,7 +75,8 @@ Json to_json(const std::string& sequence, const FusionRun& run, const Accuracy& 
       {"cpu_ms", {{"median", quantile(run.cpu_ms, 0.5)}, {"p95", quantile(run.cpu_ms, 0.95)}}},
       {"wall_ms", {{"median", quantile(run.wall_ms, 0.5)}, {"p95", quantile(run.wall_ms, 0.95)}}},
       {"map_mb", run.map_mb},
-      {"peak_mb", run.peak_mb}};
+      {"peak_mb", run.peak_mb},
+      {"warnings", warnings()}};
   for (const auto& [stage, durations_ms] : run.stages_ms) json["stages_wall_ms"][stage] = quantile(durations_ms, 0.5);
   if (!run.truth.empty()) {
     json["ate_m"] = {{"raw", accuracy.raw.rmse_m}, {"aligned", accuracy.aligned.rmse_m}, {"aligned_max", accuracy.aligned.max_m}};
@@ -101,10 +104,10 @@ Json ceiling_json(const Ceiling& ceiling) {
 int run_ceilings(const Options& options, const FusionSettings& settings) {
   const Context context = make_context(options.device);
   if (context.memory() != MemoryKind::kHost) throw InvalidSettings("--device: got cuda, expected cpu with --map");
-  const std::shared_ptr<Sequence> map = open_sequence(options.map, context);
+  const std::shared_ptr<Sequence> map = open_sequence(options.map, context, options.recording);
   Json json = Json::array();
   for (const std::string& spec : options.sequences) {
-    const std::shared_ptr<Sequence> tested = open_sequence(spec, context);
+    const std::shared_ptr<Sequence> tested = open_sequence(spec, context, options.recording);
     CeilingRun result;
     {
       ProgressBar bar(spec, (map->num_frames() + tested->num_frames()) / options.stride);
@@ -137,7 +140,7 @@ int run(const Options& options) {
   for (const std::string& spec : options.sequences) {
     Trace trace;
     const Context context = make_context(options.device, &trace);
-    const std::shared_ptr<Sequence> sequence = open_sequence(spec, context);
+    const std::shared_ptr<Sequence> sequence = open_sequence(spec, context, options.recording);
     FusionRun result;
     {
       ProgressBar bar(spec, (sequence->num_frames() + options.stride - 1) / options.stride);
@@ -150,7 +153,7 @@ int run(const Options& options) {
     const Accuracy accuracy = accuracy_of(result);
     print(spec, result, accuracy);
     json.push_back(to_json(spec, result, accuracy));
-    if (!options.trajectory_file.empty()) write_trajectory(options.trajectory_file, result.trajectory);
+    if (!options.trajectory_file.empty()) write_trajectory(options.trajectory_file, result.trajectory, sequence->origin_m());
   }
   if (!options.json_file.empty()) write_file_atomically(options.json_file, json.dump() + "\n");
   return kSuccess;
@@ -165,9 +168,7 @@ int main(int argc, char** argv) {
   CommandLine app("Follows recordings with the tracker alone, from the first true pose, and reports accuracy, time and memory.",
                   "fusion_benchmark");
   Options options;
-  app.add_option("--sequence", options.sequences, "A folder or synthetic:ROOM?setting=value&..., with @A:B for a part; repeatable")
-      .required()
-      .repeatable();
+  app.add_option("--sequence", options.sequences, std::string(kRecordingHelp) + "; repeatable").required().repeatable();
   app.add_option("--map", options.map,
                  "Instead of tracking, fuse this recording with its true poses, and align the frames of each --sequence from theirs: the "
                  "ceiling of relocalisation with refinement");
@@ -178,5 +179,6 @@ int main(int argc, char** argv) {
   app.add_option("--trajectory", options.trajectory_file, "Write the trajectory to FILE, in the format of the TUM benchmark")
       .type_name("FILE");
   add_device_options(app, options.device);
+  add_recording_options(app, options.recording);
   return run_app(app, argc, argv, [&] { return run(options); });
 }

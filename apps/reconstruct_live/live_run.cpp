@@ -7,6 +7,9 @@
 #include <ctime>
 #include <exception>
 
+#include "common/display_probe.h"
+#include "common/log.h"
+#include "foothold/frames/register_colour.h"
 #include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
 #include "foothold/frames/register_colour.h"
@@ -226,7 +229,8 @@ apps::ViewContents LiveRun::contents() {
   if (session_ == nullptr) contents.state = apps::ViewState::kRecording;
   if (paused_) contents.state = apps::ViewState::kPaused;
   if (status_.state != OpenNIState::kStreaming) contents.state = apps::ViewState::kWaiting;
-  contents.notice = notice_;
+  const std::vector<std::string> warnings = apps::warnings();
+  contents.notice = notice_.empty() && !warnings.empty() ? "warning: " + warnings.back() : notice_;
   contents.counters = counters();
   contents.keys = live_keys();
   contents.show_help = show_help_;

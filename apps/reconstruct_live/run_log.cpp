@@ -4,6 +4,7 @@
 
 #include "common/json.h"
 
+#include "common/log.h"
 #include "foothold/base/trace.h"
 
 namespace foothold::live {
@@ -82,6 +83,7 @@ std::string RunLog::to_json(const Surroundings& surroundings) const {
   json["loaded_scene"] = surroundings.loaded_scene.empty() ? Json(nullptr) : Json(surroundings.loaded_scene);
   json["saved"] = surroundings.saved;
   json["errors"] = surroundings.errors;
+  json["warnings"] = apps::warnings();
   return json.dump() + "\n";
 }
 

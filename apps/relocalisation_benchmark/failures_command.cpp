@@ -63,9 +63,7 @@ void for_each_frame(const std::vector<EvaluationInput>& inputs, const std::strin
     RgbdFrame frame;
     while (source->read(frame) == ReadStatus::kFrame) {
       if (apps::interrupted()) throw Interrupted{};
-      if (!frame.world_from_camera.has_value())
-        throw FileError(inputs[i].name + ": frame " + std::to_string(frame.index) + " has no pose; expected its true pose");
-      use(i, frame);
+      if (frame.world_from_camera.has_value()) use(i, frame);
       bar.advance();
     }
   }

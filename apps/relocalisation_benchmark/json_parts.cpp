@@ -6,6 +6,8 @@
 #include <fstream>
 #include <thread>
 
+#include "common/log.h"
+
 namespace foothold::benchmark {
 namespace {
 
@@ -76,6 +78,7 @@ Json document_head(const std::string& protocol, const std::vector<std::pair<std:
   json["format_version"] = kFormatVersion;
   json["protocol"] = protocol;
   json["settings"] = Json::nested(options);
+  json["warnings"] = apps::warnings();
   json["machine"] = {{"processor", processor_name()}, {"num_threads", std::thread::hardware_concurrency()}};
   return json;
 }
@@ -84,6 +87,8 @@ Json accuracy_json(const MethodReport& report) {
   Json json;
   json["num_trained"] = report.num_trained;
   json["num_tested"] = report.num_tested;
+  json["num_without_pose"] = report.num_without_pose;
+  json["num_without_depth"] = report.num_without_depth;
   json["num_answered"] = report.num_answered;
   json["recall"] = recall_json(report);
   json["recall_5cm_5deg_95"] = interval_json(report.recall_95);

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "common/progress_bar.h"
+#include "common/recording_options.h"
 #include "foothold/base/error.h"
 #include "foothold/evaluation/text_table.h"
 #include "foothold/io/sequence.h"
@@ -126,7 +127,7 @@ int run_kidnap(const KidnapCommandOptions& options) {
   const MethodInputs inputs = method_inputs(options.common, methods);
   const Context context = apps::make_context(options.common.device);
   KidnapInput input;
-  input.sequence = open_sequence(options.sequence, context);
+  input.sequence = open_sequence(options.sequence, context, options.common.recording);
   input.indices = frame_indices(*input.sequence, options.common.stride);
   input.options = options.kidnaps;
   input.options.seed = options.common.seed;
@@ -167,10 +168,7 @@ Command add_kidnap_command(apps::CommandLine& app) {
   options->kidnaps.num_teleports = 10;
   apps::CommandLine command =
       app.add_subcommand("kidnap", "The closed loop: the camera is suddenly elsewhere, and tracker, relocaliser and map find it again");
-  command
-      .add_option("--sequence", options->sequence,
-                  "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:NAME?key=value; @A:B at the end selects frames")
-      .required();
+  command.add_option("--sequence", options->sequence, apps::kRecordingHelp).required();
   command.add_option("--removed", options->kidnaps.num_removed, "Kidnaps over a stretch of frames that is left out").show_default();
   command.add_option("--removed-length", options->kidnaps.removed_length, "Frames of each such stretch").show_default();
   command.add_option("--teleports", options->kidnaps.num_teleports, "Kidnaps back to an earlier part of the recording").show_default();

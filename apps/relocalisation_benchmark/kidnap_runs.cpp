@@ -6,7 +6,6 @@
 
 #include "common/reconstruction.h"
 #include "foothold/base/contract.h"
-#include "foothold/base/error.h"
 #include "foothold/evaluation/novelty.h"
 #include "foothold/relocalisation/forest_relocaliser.h"
 
@@ -35,9 +34,7 @@ class KidnapPlayer {
 
   RgbdFrame load(int frame) const {
     advance_();
-    RgbdFrame loaded = input_.sequence->load(input_.indices[static_cast<std::size_t>(frame)]);
-    if (loaded.world_from_camera.has_value()) return loaded;
-    throw FileError(input_.sequence->name() + ": frame " + std::to_string(loaded.index) + " has no pose; expected its true pose");
+    return input_.sequence->load(input_.indices[static_cast<std::size_t>(frame)]);
   }
 
   /// Shows a kidnap to a copy.
@@ -47,7 +44,8 @@ class KidnapPlayer {
     branch.kidnap = kidnap;
     for (const PlayStep& step : independent_steps(input_.kidnaps[kidnap], static_cast<int>(input_.indices.size()), input_.options)) {
       const RgbdFrame frame = load(step.frame);
-      if (branch.frames.empty()) was_seen = novelty_bin_of(*frame.world_from_camera, seen) < novelty_limits().size();
+      if (branch.frames.empty() && frame.world_from_camera.has_value())
+        was_seen = novelty_bin_of(*frame.world_from_camera, seen) < novelty_limits().size();
       branch.frames.push_back(step.frame);
       branch.played.push_back(apps::played(copy.process(frame.view())));
     }
@@ -86,9 +84,9 @@ KidnapRun run_kidnaps(const Context& context, const Method& method, const Method
       if (input.kidnaps[i].from == frame_number) branches.push_back(player.branch_off(reconstruction, i, seen, run.kidnaps[i].was_seen));
     }
     const RgbdFrame frame = player.load(frame_number);
-    if (frame_number == 0) reconstruction.pipeline().start_at(*frame.world_from_camera);
+    if (frame_number == 0 && frame.world_from_camera.has_value()) reconstruction.pipeline().start_at(*frame.world_from_camera);
     poses.push_back(reconstruction.process(frame.view()).world_from_camera);
-    seen.push_back(*frame.world_from_camera);
+    if (frame.world_from_camera.has_value()) seen.push_back(*frame.world_from_camera);
     run.num_tracked_frames += poses.back().has_value() ? 1 : 0;
   }
   run.num_frames = static_cast<int>(input.indices.size());

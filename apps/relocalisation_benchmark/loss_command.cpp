@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "commands.h"
+#include "common/recording_options.h"
 #include "foothold/evaluation/tracking_loss.h"
 #include "outputs.h"
 #include "run_methods.h"
@@ -42,7 +43,7 @@ Command add_loss_command(apps::CommandLine& app) {
   const auto options = std::make_shared<LossOptions>();
   apps::CommandLine command =
       app.add_subcommand("loss", "Relocalise every frame with what was learnt before it, then learn it with its true pose");
-  command.add_option("--sequence", options->sequence, "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:NAME?key=value").required();
+  command.add_option("--sequence", options->sequence, apps::kRecordingHelp).required();
   command.add_option("--frames", options->frames, "Use only frames A:B, the last one excluded").type_name("A:B");
   command.add_option("--gap", options->gap, "Test frame i + N (of those used) with what was learnt up to frame i - 1")
       .range(0, 1000000)

@@ -55,12 +55,11 @@ FrameList read_frames(const EvaluationInput& input, const Eigen::Vector3f& moved
     const ReadStatus status = source->read(*frame);
     if (status == ReadStatus::kTimedOut) continue;
     if (status == ReadStatus::kEnd) break;
-    if (!frame->world_from_camera.has_value())
-      throw FileError(input.name + ", frame " + std::to_string(frame->index) + ": has no true pose; expected one for every frame");
+    if (!frame->world_from_camera.has_value()) continue;
     frame->world_from_camera->translation += moved_by_m;
     frames.push_back(std::move(frame));
   }
-  if (frames.empty()) throw FileError(input.name + ": has no frames; expected at least one");
+  if (frames.empty()) throw FileError(input.name + ": has no frames with a true pose; expected at least one");
   return frames;
 }
 

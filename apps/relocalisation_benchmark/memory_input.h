@@ -14,8 +14,8 @@ namespace foothold::benchmark {
 
 using FrameList = std::vector<std::shared_ptr<const RgbdFrame>>;
 
-/// Reads all frames of an input into memory, their poses moved.
-/// @throws Interrupted; FileError naming a frame that has no true pose, or the input if it has no frames.
+/// Reads all frames of an input that have a true pose into memory, their poses moved.
+/// @throws Interrupted; FileError naming the input if it has no such frames.
 FrameList read_frames(const EvaluationInput& input, const Eigen::Vector3f& moved_by_m = Eigen::Vector3f::Zero());
 
 /// Plays frames that are in memory.

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include "common/override_settings.h"
+#include "common/recording_options.h"
 #include "common/unhurried_player.h"
 #include "foothold/base/error.h"
-#include "foothold/io/sequence.h"
 #include "foothold/io/sequence_player.h"
 
 namespace foothold::benchmark {
@@ -43,6 +43,7 @@ void add_experiment_options(apps::CommandLine& command, CommonOptions& options) 
   command.add_option("--stride", options.stride, "Use every Nth frame").range(1, 1000000).show_default();
   command.add_option("--seed", options.seed, "Seed of every random choice").show_default();
   apps::add_device_options(command, options.device);
+  apps::add_recording_options(command, options.recording);
   command.add_flag(
       "--exclusive-timing", options.exclusive_timing,
       "Decode frames between the timed calls, not beside them in a thread: slower, but what is timed has the machine to itself");
@@ -76,17 +77,22 @@ MethodInputs method_inputs(const CommonOptions& options, const std::vector<Metho
 }
 
 std::vector<std::pair<std::string, std::string>> describe_options(const CommonOptions& options) {
-  return {{"forest", options.forest},
-          {"preset", options.preset},
-          {"device", options.device.device},
-          {"threads", std::to_string(options.device.num_threads)},
-          {"stride", std::to_string(options.stride)},
-          {"seed", std::to_string(options.seed)},
-          {"exclusive_timing", options.exclusive_timing ? "true" : "false"}};
+  std::vector<std::pair<std::string, std::string>> described = {{"forest", options.forest},
+                                                                {"preset", options.preset},
+                                                                {"device", options.device.device},
+                                                                {"threads", std::to_string(options.device.num_threads)},
+                                                                {"stride", std::to_string(options.stride)},
+                                                                {"seed", std::to_string(options.seed)},
+                                                                {"exclusive_timing", options.exclusive_timing ? "true" : "false"}};
+  const SequenceOptions& recording = options.recording;
+  if (!recording.intrinsics.empty()) described.emplace_back("intrinsics", recording.intrinsics);
+  if (recording.depth_units_per_m != 0.0) described.emplace_back("depth_scale", std::to_string(recording.depth_units_per_m));
+  if (!recording.pose_convention.empty()) described.emplace_back("pose_convention", recording.pose_convention);
+  return described;
 }
 
 EvaluationInput open_input(const CommonOptions& options, const std::string& sequence_spec, const std::string& range_text) {
-  const std::shared_ptr<const Sequence> sequence = open_sequence(sequence_spec, apps::make_context(options.device));
+  const std::shared_ptr<const Sequence> sequence = open_sequence(sequence_spec, apps::make_context(options.device), options.recording);
   const FrameRange range = range_text.empty() ? FrameRange{} : parse_frame_range(range_text);
   const int num_frames = sequence->num_frames();
   const int end = range.end == FrameRange::kToTheEnd ? num_frames : range.end;

@@ -11,6 +11,7 @@
 #include "common/app_main.h"
 #include "foothold/base/context.h"
 #include "foothold/evaluation/protocol.h"
+#include "foothold/io/sequence.h"
 #include "methods.h"
 
 namespace foothold::benchmark {
@@ -23,6 +24,7 @@ struct CommonOptions {
   std::string settings_file;
   std::vector<std::string> settings;
   apps::DeviceOptions device;
+  SequenceOptions recording;
   int stride = 1;
   std::uint64_t seed = 42;
   bool exclusive_timing = false;

@@ -16,6 +16,8 @@ std::string summary_table(const BenchmarkResult& result);
 std::string duration_table(const BenchmarkResult& result);
 /// A Markdown table of recall against novelty, a row per bin and a column per method; empty if the result has no bins.
 std::string novelty_table(const BenchmarkResult& result);
+/// How many frames were left out or had no depth; empty if there are none.
+std::string left_out_text(const BenchmarkResult& result);
 /// All tables that the result has something for.
 std::string all_tables(const BenchmarkResult& result);
 /// The result as a JSON document.

@@ -54,16 +54,17 @@ std::string room_spec(const std::string& spec, const std::string& trajectory) {
   return synthetic_spec(settings);
 }
 
-/// Opens recordings and looks at the first frame of each, which tells most of what can be wrong with all.
+/// Opens recordings and looks at the first frames of each, which tell most of what can be wrong with all.
 std::vector<EvaluationInput> open_recordings(const CommonOptions& options, const std::vector<std::string>& specs) {
   std::vector<EvaluationInput> inputs;
   for (const std::string& spec : specs) {
     inputs.push_back(open_input(options, spec));
     RgbdFrame frame;
-    if (inputs.back().open()->read(frame) != ReadStatus::kFrame) throw FileError(spec + ": has no frames; expected at least one");
-    if (!frame.world_from_camera.has_value())
-      throw FileError(spec + ": frame " + std::to_string(frame.index) +
-                      " has no pose; expected every frame's true pose, by which experiments learn and judge");
+    const std::unique_ptr<FrameSource> source = inputs.back().open();
+    while (!frame.world_from_camera.has_value()) {
+      if (source->read(frame) != ReadStatus::kFrame)
+        throw FileError(spec + ": no pose in any of its frames; expected true poses, by which experiments learn and judge");
+    }
   }
   return inputs;
 }

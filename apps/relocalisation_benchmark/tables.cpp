@@ -104,8 +104,19 @@ std::string novelty_table(const BenchmarkResult& result) {
   return format_table(header, rows);
 }
 
+std::string left_out_text(const BenchmarkResult& result) {
+  if (result.methods.empty()) return {};
+  const MethodReport& report = result.methods.front().report;  // the frames are the same for all
+  std::string text;
+  const auto frames = [](int count) { return std::to_string(count) + (count == 1 ? " frame" : " frames"); };
+  if (report.num_without_pose > 0) text += frames(report.num_without_pose) + " without a true pose left out. ";
+  if (report.num_without_depth > 0) text += frames(report.num_without_depth) + " without depth not found, and not learnt. ";
+  if (!text.empty()) text.back() = '\n';
+  return text;
+}
+
 std::string all_tables(const BenchmarkResult& result) {
-  std::string tables = summary_table(result) + "\n";
+  std::string tables = summary_table(result) + left_out_text(result) + "\n";
   const std::string novelty = novelty_table(result);
   if (!novelty.empty()) tables += novelty + "\n";
   return tables + duration_table(result);

@@ -5,6 +5,8 @@
 
 #include "common/app_main.h"
 #include "common/progress_bar.h"
+#include "common/recording_options.h"
+#include "foothold/frames/raw_sequence.h"
 #include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
 #include "foothold/frames/raw_sequence.h"
@@ -22,6 +24,7 @@ struct Options {
   int stride = 1;
   bool raw = false;
   int num_threads = 0;
+  SequenceOptions recording;
 };
 
 /// What can be rendered and how, for --help.
@@ -69,7 +72,7 @@ int render(const Options& options) {
   context_options.num_threads = options.num_threads;
   context_options.log = log_to_stderr();
   const Context context(context_options);
-  SequenceOptions sequence_options;
+  SequenceOptions sequence_options = options.recording;
   sequence_options.register_colour = options.raw;  // a folder is a copy; raw files are used as they are
   const std::shared_ptr<const Sequence> sequence = open_sequence(options.sequence, context, sequence_options);
   const std::vector<int> indices = frame_indices(*sequence, options.stride);
@@ -86,14 +89,13 @@ int main(int argc, char** argv) {
   CommandLine app("Writes a rendered room, or any other recording, as a folder in the layout of 7-Scenes, or as one raw file.",
                   "render_sequence");
   Options options;
-  app.add_option("--sequence", options.sequence,
-                 "synthetic:ROOM?setting=value&..., or a recording's folder; @A:B at the end selects frames")
-      .required();
+  app.add_option("--sequence", options.sequence, kRecordingHelp).required();
   app.add_option("--out", options.out, "Folder to write, which must not hold frames already; with --raw, a file")
       .required()
       .type_name("DIR");
   app.add_flag("--raw", options.raw, "Write one file without compression instead, which needs no image library: for scripts/bench_gpu.sh");
   app.add_option("--stride", options.stride, "Use every Nth frame").range(1, 1000000).show_default();
+  add_recording_options(app, options.recording);
   app.add_option("--threads", options.num_threads, "Host threads; 0 for as many as the machine has").range(0, 1024).show_default();
   app.footer(rooms_help());
   return run_app(app, argc, argv, [&] { return render(options); });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
 #include "common/json.h"
+#include "common/log.h"
 #include "foothold/base/settings.h"
 #include "report.h"
 
@@ -19,8 +20,14 @@ Json ate_json(const AbsoluteTrajectoryError& error) {
 
 Json run_json(const ReplayRun& run) {
   const RunCounts counts = count_frames(run);
-  Json json = {{"frames", counts.num_frames}, {"tracking", counts.num_tracking}, {"settling", counts.num_settling},
-               {"lost", counts.num_lost},     {"fused", counts.num_fused},       {"relocalised", counts.num_relocalised}};
+  Json json = {{"frames", counts.num_frames},
+               {"tracking", counts.num_tracking},
+               {"settling", counts.num_settling},
+               {"lost", counts.num_lost},
+               {"fused", counts.num_fused},
+               {"relocalised", counts.num_relocalised},
+               {"without_true_pose", counts.num_without_true_pose},
+               {"without_depth", counts.num_without_depth}};
   if (const std::optional<RunError> error = run_error(run); error.has_value()) {
     json["ate_frames"] = error->num_frames;
     json["ate"] = ate_json(error->raw);
@@ -102,6 +109,8 @@ Json head_json(const ReplayOptions& options, const ReplaySettings& settings, con
             {"independent", options.independent},
             {"seed", kidnaps.seed}}},
           {"settings", settings_json(settings)},
+          {"warnings", apps::warnings()},
+          {"broken_off", result.broken_off.empty() ? Json(nullptr) : Json(result.broken_off)},
           {"complete", result.complete}};
 }
 

@@ -15,12 +15,12 @@
 namespace foothold::replay {
 namespace {
 
-void save_trajectory(const std::string& path, const ReplayRun& run) {
+void save_trajectory(const std::string& path, const ReplayRun& run, const Eigen::Vector3d& origin_m) {
   std::vector<StampedPose> trajectory;
   for (const ReplayFrame& frame : run.frames) {
     if (frame.result.world_from_camera.has_value()) trajectory.push_back({frame.timestamp_s, *frame.result.world_from_camera});
   }
-  write_trajectory(path, trajectory);
+  write_trajectory(path, trajectory, origin_m);
 }
 
 void save_picture(const std::string& path, const Image<Rgb8>& picture) {
@@ -34,9 +34,10 @@ int run(const ReplayOptions& options) {
   const ReplayResult result = replay(options, settings);
   std::printf("%s", text_report(options, result).c_str());
   if (!options.json_file.empty()) write_file_atomically(options.json_file, json_report(options, settings, result));
-  if (!options.trajectory_file.empty()) save_trajectory(options.trajectory_file, result.main_run());
+  if (!options.trajectory_file.empty()) save_trajectory(options.trajectory_file, result.main_run(), result.origin_m);
   if (!options.mesh_file.empty()) write_ply(options.mesh_file, result.main_run().mesh);
   if (!options.picture_file.empty()) save_picture(options.picture_file, result.main_run().picture);
+  if (!result.broken_off.empty()) throw FileError(result.broken_off + " (what came before is saved)");
   return apps::interrupted() ? apps::kInterrupted : apps::kSuccess;
 }
 

@@ -4,7 +4,9 @@
 
 #include <filesystem>
 
+#include "common/display_probe.h"
 #include "common/override_settings.h"
+#include "common/recording_options.h"
 #include "common/view_window.h"
 #include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
@@ -50,10 +52,7 @@ void add_output_options(apps::CommandLine& app, ReplayOptions& options) {
 }  // namespace
 
 void add_replay_options(apps::CommandLine& app, ReplayOptions& options) {
-  app.add_option("sequence", options.sequence,
-                 "A folder (7-Scenes, TUM RGB-D, ICL-NUIM) or synthetic:ROOM?setting=value&...; @A:B at the end selects frames")
-      .required()
-      .type_name("SEQUENCE");
+  app.add_option("sequence", options.sequence, apps::kRecordingHelp).required().type_name("SEQUENCE");
   app.add_option("--method", options.method, "What finds a lost camera: forest, ferns or none")
       .one_of({"forest", "ferns", "none"})
       .show_default();
@@ -66,6 +65,7 @@ void add_replay_options(apps::CommandLine& app, ReplayOptions& options) {
   app.add_option("--settings", options.settings_file, "JSON file of settings: {\"fusion\": {\"volume\": {\"max_depth_m\": 4}}}");
   app.add_option("--set", options.settings, "One setting as path=value, such as fusion.volume.max_depth_m=4; repeatable").repeatable();
   apps::add_device_options(app, options.device);
+  apps::add_recording_options(app, options.recording);
   app.add_flag("--exclusive-timing", options.exclusive_timing,
                "Decode frames between the timed calls, not beside them in a thread: slower, but gives processor time per frame");
 }

@@ -10,6 +10,7 @@
 #include "common/app_main.h"
 #include "foothold/evaluation/kidnap.h"
 #include "foothold/fusion/fusion_pipeline.h"
+#include "foothold/io/sequence.h"
 #include "foothold/relocalisation/keyframe_relocaliser.h"
 #include "foothold/relocalisation/settings.h"
 
@@ -40,6 +41,7 @@ struct ReplayOptions {
   std::vector<std::string> settings;
   float voxel_size_m = 0.0F;  ///< 0: as the settings say
   apps::DeviceOptions device;
+  SequenceOptions recording;
   int stride = 1;
 
   KidnapOptions kidnaps;

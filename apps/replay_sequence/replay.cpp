@@ -78,7 +78,7 @@ class Replayer {
       : options_(options),
         settings_(settings),
         context_(apps::make_context(options.device)),
-        sequence_(open_sequence(options.sequence, apps::make_context(options.device))),
+        sequence_(open_sequence(options.sequence, apps::make_context(options.device), options.recording)),
         indices_(frame_indices(*sequence_, options.stride)),
         view_(context_, options, static_cast<int>(indices_.size())) {
     if (indices_.empty()) throw FileError(options.sequence + ": expected at least one frame");
@@ -88,7 +88,9 @@ class Replayer {
 
  private:
   int num_frames() const { return static_cast<int>(indices_.size()); }
-  bool stopped() const { return apps::interrupted() || view_.ended(); }
+  bool stopped() const { return apps::interrupted() || view_.ended() || !broken_off_.empty(); }
+  /// Reads a frame. @return False at the end, and where the recording is damaged: what was played so far is worth keeping.
+  bool read(FrameSource& source, RgbdFrame& frame);
   Reconstruction start() const;
   /// Every frame once, in order.
   std::vector<PlayStep> all_frames() const { return plan_sequential_kidnaps(num_frames(), {}).steps; }
@@ -112,6 +114,7 @@ class Replayer {
   std::shared_ptr<const Sequence> sequence_;
   std::vector<int> indices_;
   ReplayView view_;
+  std::string broken_off_;  ///< what is wrong with the recording from here on
 };
 
 Reconstruction Replayer::start() const {
@@ -129,12 +132,23 @@ std::unique_ptr<FrameSource> Replayer::open(const std::vector<PlayStep>& steps) 
   return std::make_unique<SequencePlayer>(sequence_, std::move(indices));
 }
 
+bool Replayer::read(FrameSource& source, RgbdFrame& frame) {
+  try {
+    return source.read(frame) == ReadStatus::kFrame;
+  } catch (const FileError& error) {
+    broken_off_ = error.what();
+    return false;
+  }
+}
+
 ReplayFrame Replayer::show(Reconstruction& reconstruction, RgbdFrame& frame, const PlayStep& step, const std::string& event) {
   if (step.covered) {
     std::fill_n(frame.depth.data(), frame.depth.size(), 0.0F);
     std::fill_n(frame.colour.data(), frame.colour.size(), kDark);
   }
-  ReplayFrame result{step, frame.index, frame.timestamp_s, frame.world_from_camera, {}, std::numeric_limits<double>::quiet_NaN()};
+  const bool has_depth = std::any_of(frame.depth.data(), frame.depth.data() + frame.depth.size(), is_valid_depth);
+  ReplayFrame result{
+      step, frame.index, frame.timestamp_s, frame.world_from_camera, has_depth, {}, std::numeric_limits<double>::quiet_NaN()};
   const double cpu_before_ms = process_cpu_ms();
   result.result = reconstruction.process(frame.view());
   if (options_.exclusive_timing) result.cpu_ms = process_cpu_ms() - cpu_before_ms;
@@ -156,7 +170,7 @@ ReplayRun Replayer::play(const std::string& label, Reconstruction& reconstructio
     const Stopwatch aside;
     before(run, step);
     elsewhere_ms += aside.elapsed_ms();
-    if (stopped() || source->read(frame) != ReadStatus::kFrame) break;
+    if (stopped() || !read(*source, frame)) break;
     const bool is_first_covered = step.covered && (run.frames.empty() || !run.frames.back().step.covered);
     const std::string event = step.kidnap >= 0   ? describe(kidnaps[static_cast<std::size_t>(step.kidnap)])
                               : is_first_covered ? "the lens is covered"
@@ -189,7 +203,7 @@ KidnapRecord Replayer::branch_off(const Reconstruction& reconstruction, const Ki
   view_.begin_branch();
   RgbdFrame frame;
   for (const PlayStep& step : steps) {
-    if (stopped() || source->read(frame) != ReadStatus::kFrame) break;
+    if (stopped() || !read(*source, frame)) break;
     if (step.kidnap >= 0) record.mapped = mapped_fraction(copy, so_far.frames.back(), frame);
     const ReplayFrame shown = show(copy, frame, step, step.kidnap >= 0 ? describe(kidnap) : std::string());
     if (!step.covered) record.frames.push_back(shown);
@@ -256,8 +270,7 @@ Mesh Replayer::mesh_from_true_poses() const {
   FrameUploader uploader(context_);
   RgbdFrame frame;
   while (!stopped() && source->read(frame) == ReadStatus::kFrame) {
-    if (!frame.world_from_camera.has_value()) return {};
-    volume.integrate(uploader.upload(frame.view()), *frame.world_from_camera);
+    if (frame.world_from_camera.has_value()) volume.integrate(uploader.upload(frame.view()), *frame.world_from_camera);
     progress.advance();
   }
   if (stopped()) return {};  // part of a surface is no reference
@@ -290,11 +303,14 @@ ReplayResult Replayer::run() {
   if (with_kidnaps && options_.independent) independent = plan_independent_kidnaps(num_frames(), options_.kidnaps);
   if (with_kidnaps && !options_.independent) plan = plan_sequential_kidnaps(num_frames(), options_.kidnaps);
   result.undisturbed = play_undisturbed(independent, result.kidnaps);
+  if (result.undisturbed.frames.empty() && !broken_off_.empty()) throw FileError(broken_off_);
   if (!plan.steps.empty() && !stopped()) play_kidnapped(plan, result);
   judge_kidnaps(result);
   result.peak_mb = apps::peak_memory_mb();  // before surfaces are compared, which is no part of reconstruction
   if (result.kidnapped.has_value() && !stopped()) compare_surfaces(result);
   result.complete = !stopped();
+  result.broken_off = broken_off_;
+  result.origin_m = sequence_->origin_m();
   return result;
 }
 
@@ -311,6 +327,11 @@ std::optional<RunError> run_error(const ReplayRun& run) {
     truth.push_back(*frame.world_from_camera_true);
   }
   if (estimated.empty()) return std::nullopt;
+  const bool began_at_truth = run.frames.front().world_from_camera_true.has_value();
+  if (!began_at_truth) {  // the run has a world of its own: it is laid over the true one where both are first known
+    const SE3 truth_from_run = truth.front() * estimated.front().inverse();
+    for (SE3& pose : estimated) pose = truth_from_run * pose;
+  }
   RunError error;
   error.num_frames = static_cast<int>(estimated.size());
   error.raw = absolute_trajectory_error(estimated, truth, TrajectoryAlignment::kNone);

@@ -25,6 +25,7 @@ struct ReplayFrame {
   std::int64_t index = 0;  ///< the frame's number in its recording
   double timestamp_s = 0.0;
   std::optional<SE3> world_from_camera_true;
+  bool has_depth = true;
   FusionFrameResult result;
   double cpu_ms = 0.0;  ///< processor time of all threads; NaN without --exclusive-timing
 };
@@ -68,7 +69,9 @@ struct ReplayResult {
   KidnapOutcome whole_kidnapped;            ///< wrong poses anywhere in the kidnapped run
   std::vector<SurfaceComparison> surfaces;  ///< of the kidnapped and the undisturbed run; empty without kidnaps in one run
   double peak_mb = 0.0;
-  bool complete = true;  ///< false: interrupted
+  bool complete = true;      ///< false: interrupted, or the recording broke off
+  std::string broken_off;    ///< why the recording could not be read to its end; empty if it could
+  Eigen::Vector3d origin_m;  ///< Sequence::origin_m() of the recording
 
   /// The run whose surface and trajectory are saved.
   const ReplayRun& main_run() const { return kidnapped.has_value() ? *kidnapped : undisturbed; }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
+#include "common/log.h"
 #include "common/view_picture.h"
 #include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
@@ -54,7 +55,8 @@ void ReplayView::draw(const RgbdFrame& frame, const FusionPipeline& pipeline) {
   ViewContents contents = monitor_.contents(frame, pipeline);
   contents.title = title_;
   contents.frame_text = "frame " + std::to_string(frame.index) + " of " + std::to_string(num_frames_);
-  contents.notice = notice_;
+  const std::vector<std::string> warnings = apps::warnings();
+  contents.notice = notice_.empty() && !warnings.empty() ? "warning: " + warnings.back() : notice_;
   contents.counters = run_;
   contents.show_help = show_help_;
   if (!folder_.empty()) {

@@ -77,6 +77,8 @@ RunCounts count_frames(const ReplayRun& run) {
     counts.num_lost += frame.result.state == RecoveryState::kLost ? 1 : 0;
     counts.num_fused += frame.result.fused ? 1 : 0;
     counts.num_relocalised += frame.result.relocalised ? 1 : 0;
+    counts.num_without_true_pose += frame.world_from_camera_true.has_value() ? 0 : 1;
+    counts.num_without_depth += frame.has_depth || frame.step.covered ? 0 : 1;
   }
   return counts;
 }
@@ -111,9 +113,21 @@ std::map<std::string, KidnapSummary> kidnap_summaries(const ReplayResult& result
   return summaries;
 }
 
+/// What the recording lacks.
+std::string lacks_text(const ReplayRun& run) {
+  const RunCounts counts = count_frames(run);
+  std::string text;
+  if (counts.num_without_depth > 0) text += std::to_string(counts.num_without_depth) + " frames have no depth. ";
+  if (counts.num_without_true_pose > 0 && counts.num_without_true_pose < counts.num_frames) {
+    text += std::to_string(counts.num_without_true_pose) + " frames have no true pose, and are left out of ATE. ";
+  }
+  if (!text.empty()) text.back() = '\n';
+  return text;
+}
+
 std::string text_report(const ReplayOptions& options, const ReplayResult& result) {
-  std::string text =
-      options.sequence + ", relocaliser: " + options.method + "\n\n" + run_table(result) + "\n" + time_table(result.main_run());
+  std::string text = options.sequence + ", relocaliser: " + options.method + "\n\n" + run_table(result) + lacks_text(result.undisturbed) +
+                     "\n" + time_table(result.main_run());
   if (!result.kidnaps.empty()) {
     text += "\n" + kidnap_table(result) + "\nRight: within 10 cm and 10 deg of the undisturbed run's pose of the same frame.\n";
   }

@@ -19,6 +19,8 @@ struct RunCounts {
   int num_lost = 0;
   int num_fused = 0;
   int num_relocalised = 0;
+  int num_without_true_pose = 0;
+  int num_without_depth = 0;
 };
 RunCounts count_frames(const ReplayRun& run);
 

@@ -11,6 +11,7 @@
 #include "common/app_main.h"
 #include "common/override_settings.h"
 #include "common/progress_bar.h"
+#include "common/recording_options.h"
 #include "foothold/base/error.h"
 #include "foothold/base/printable.h"
 #include "foothold/io/sequence.h"
@@ -28,6 +29,7 @@ struct Options {
   std::vector<std::string> notes;
   bool resume = false;
   int num_threads = 0;
+  SequenceOptions recording;
   std::string forest_file;
 };
 
@@ -101,7 +103,7 @@ int train(const Options& options) {
   device.num_threads = options.num_threads;
   const Context context = make_context(device);
   std::vector<std::shared_ptr<const Sequence>> sequences;
-  for (const std::string& spec : options.sequences) sequences.push_back(open_sequence(spec, context));
+  for (const std::string& spec : options.sequences) sequences.push_back(open_sequence(spec, context, options.recording));
 
   ForestTrainingRun run;
   run.checkpoint = options.out + ".checkpoint";
@@ -160,6 +162,7 @@ int main(int argc, char** argv) {
   app.add_option("--settings", options.settings_file, "JSON file of settings").type_name("FILE");
   app.add_option("--set", options.assignments, "One setting as setting=value; repeatable").repeatable();
   app.add_option("--note", options.notes, "A line to add to what `info` prints, such as 'commit = abc'; repeatable").repeatable();
+  add_recording_options(app, options.recording);
   app.add_option("--threads", options.num_threads, "Threads; 0 for as many as the machine has. The forest does not depend on it")
       .range(0, 1024)
       .show_default();

@@ -11,6 +11,7 @@
 #include "common/json.h"
 #include "common/override_settings.h"
 #include "common/progress_bar.h"
+#include "common/recording_options.h"
 #include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
 #include "foothold/io/image_file.h"
@@ -49,6 +50,7 @@ struct Options {
   std::string settings_file;
   std::vector<std::string> assignments;
   DeviceOptions device;
+  SequenceOptions recording;
 };
 
 GateSettings settings_of(const Options& options) {
@@ -58,17 +60,17 @@ GateSettings settings_of(const Options& options) {
 }
 
 /// Collects the examples of several recordings, one group each; each is also tried with frames of the next. Empty if interrupted.
-QualityExamples collect(const Context& context, const std::vector<std::string>& specs, const std::vector<std::string>& views,
-                        const GateSettings& settings) {
+QualityExamples collect(const Context& context, const SequenceOptions& options, const std::vector<std::string>& specs,
+                        const std::vector<std::string>& views, const GateSettings& settings) {
   if (!views.empty() && views.size() != specs.size()) {
     throw InvalidSettings("--views: got " + std::to_string(views.size()) + ", expected one for each of the " +
                           std::to_string(specs.size()) + " recordings, or none");
   }
   std::vector<std::shared_ptr<Sequence>> mapped;
-  for (const std::string& spec : specs) mapped.push_back(open_sequence(spec, context));
+  for (const std::string& spec : specs) mapped.push_back(open_sequence(spec, context, options));
   QualityExamples examples;
   for (std::size_t i = 0; i < specs.size() && !interrupted(); ++i) {
-    const std::shared_ptr<Sequence> other_views = views.empty() ? nullptr : open_sequence(views[i], context);
+    const std::shared_ptr<Sequence> other_views = views.empty() ? nullptr : open_sequence(views[i], context, options);
     const Sequence* const foreign = specs.size() > 1 ? mapped[(i + 1) % specs.size()].get() : nullptr;
     const QualityRecording recording{mapped[i].get(), other_views.get(), foreign, static_cast<int>(i)};
     ProgressBar bar(specs[i], num_example_frames(recording, settings.examples));
@@ -236,8 +238,8 @@ bool gather(const Options& options, const GateSettings& settings, std::vector<Ta
   }
   const Context context = make_context(options.device);
   if (context.memory() != MemoryKind::kHost) throw InvalidSettings("--device: got cuda, expected cpu: examples are gathered on the host");
-  QualityExamples examples = collect(context, options.sequences, options.views, settings);
-  QualityExamples unseen = collect(context, options.test_sequences, options.test_views, settings);
+  QualityExamples examples = collect(context, options.recording, options.sequences, options.views, settings);
+  QualityExamples unseen = collect(context, options.recording, options.test_sequences, options.test_views, settings);
   tasks[0].examples = std::move(examples.tracking);
   tasks[0].unseen = std::move(unseen.tracking);
   tasks[1].examples = std::move(examples.acceptance);
@@ -315,5 +317,6 @@ int main(int argc, char** argv) {
   app.add_option("--settings", options.settings_file, "JSON file of settings").type_name("FILE");
   app.add_option("--set", options.assignments, "One setting as setting=value; repeatable").repeatable();
   add_device_options(app, options.device);
+  add_recording_options(app, options.recording);
   return run_app(app, argc, argv, [&] { return train(options); });
 }

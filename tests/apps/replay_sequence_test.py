@@ -9,6 +9,7 @@ import signal
 import struct
 import subprocess
 import unittest
+import unittest.mock
 
 import app_support
 
@@ -73,6 +74,49 @@ class UndisturbedTest(ReplayTest):
         self.assertEqual([float(word) for word in first[1:]], [0, 0, 0, 0, 0, 0, 1])
 
 
+class DefectsTest(ReplayTest):
+    def setUp(self):
+        super().setUp()
+        width, height = 160, 120
+        app_support.write_seven_scenes(self.folder / "recording", 8, width, height)
+        for index in range(8):  # two boxes before the wall hold the tracker
+            rows = [b"".join(struct.pack(">H", 1500 + 10 * u + 3 * v - 400 * (40 < u < 80 and 30 < v < 70) - 300 * (100 < u < 130 and 60 < v < 100))
+                             for u in range(width)) for v in range(height)]
+            app_support.write_png(self.folder / "recording" / f"frame-{index:06d}.depth.png", width, height, rows, 16, 1)
+
+    def test_frames_without_a_true_pose_are_used_all_the_same(self):
+        (self.folder / "recording" / "frame-000003.pose.txt").write_text("-inf\n" * 16)
+        (self.folder / "recording" / "frame-000004.pose.txt").unlink()
+        run = self.replay("--method", "none", sequence="recording")["undisturbed"]
+        self.assertEqual((run["frames"], run["without_true_pose"], run["ate_frames"]), (8, 2, 6))
+
+    def test_error_is_told_where_only_later_frames_have_a_true_pose(self):
+        (self.folder / "recording" / "frame-000000.pose.txt").write_text("")
+        for pose in (self.folder / "recording").glob("*.pose.txt"):
+            if pose.read_text():
+                pose.write_text(pose.read_text().replace("0 1 0 0", "0 1 0 7"))  # seven metres from where the run begins
+        run = self.replay("--method", "none", sequence="recording")["undisturbed"]
+        self.assertEqual(run["ate_frames"], 7)
+        self.assertLess(run["ate"]["rmse_m"], 0.1)
+
+    def test_what_came_before_a_damaged_frame_is_saved(self):
+        (self.folder / "recording" / "frame-000005.depth.png").write_bytes(b"")
+        result = self.run_app("recording", "--method", "none", "--json", "result.json", "--save-trajectory", "trajectory.txt")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("frame-000005.depth.png", result.stderr)
+        report = json.loads((self.folder / "result.json").read_text())
+        self.assertEqual((report["undisturbed"]["frames"], report["complete"]), (5, False))
+        self.assertIn("frame-000005.depth.png", report["broken_off"])
+        self.assertTrue((self.folder / "trajectory.txt").exists())
+
+    def test_poses_far_from_the_origin_are_written_back_there(self):
+        for index in range(8):
+            (self.folder / "recording" / f"frame-{index:06d}.pose.txt").write_text(f"1 0 0 {481234 + 0.01 * index}\n0 1 0 5412345\n0 0 1 300\n0 0 0 1\n")
+        self.replay("--method", "none", "--save-trajectory", "trajectory.txt", sequence="recording")
+        first = (self.folder / "trajectory.txt").read_text().splitlines()[1].split()
+        self.assertEqual([float(word) for word in first[1:4]], [481234, 5412345, 300])
+
+
 class KidnapTest(ReplayTest):
     def test_recovers_from_a_covered_lens(self):
         result = self.replay(*BLACKOUT, "--video", "video", "--video-every", 20)
@@ -119,6 +163,16 @@ class ShowTest(ReplayTest):
             if value is not None:
                 self.addCleanup(os.environ.__setitem__, name, value)
         self.check_refused(ROOM, "--show", says=["--show", "DISPLAY", "--video"])
+
+    def test_says_so_whatever_is_wrong_with_a_display(self):
+        names = ("DISPLAY", "WAYLAND_DISPLAY", "QT_QPA_PLATFORM")
+        for name, value in [("DISPLAY", "localhost:77.0"), ("WAYLAND_DISPLAY", "wayland-77"), ("DISPLAY", "unix:77"), ("QT_QPA_PLATFORM", "none")]:
+            with self.subTest(name, value=value), unittest.mock.patch.dict(os.environ):
+                for other in names:
+                    os.environ.pop(other, None)
+                os.environ[name] = value
+                result = self.check_refused(ROOM, "--show", says=["--show", value, "--video"])
+                self.assertEqual(len(result.stderr.strip().splitlines()), 1)
 
 
 class InterruptTest(ReplayTest):

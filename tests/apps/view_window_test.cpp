@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 
+#include "common/display_probe.h"
 #include "foothold/base/error.h"
 #include "support/catch.h"
 
@@ -49,10 +50,29 @@ TEST_CASE("ViewWindow: without a display it says so instead of ending the proces
   CHECK_THROWS_AS(ViewWindow("test"), DeviceError);
 }
 
-TEST_CASE("ViewWindow: a display that does not answer is named") {
-  const Environment environment({{"DISPLAY", ":9876.0"}, {"WAYLAND_DISPLAY", nullptr}, {"QT_QPA_PLATFORM", nullptr}});
-  CHECK_THAT(describe_missing_display(), Contains(":9876.0"));
+TEST_CASE("ViewWindow: whatever way a display is unusable in, it is named in one line") {
+  struct Case {
+    const char* display;
+    const char* wayland;
+    const char* platform;
+    const char* says;
+  };
+  const Case c = GENERATE(values<Case>({{":9876.0", nullptr, nullptr, ":9876.0"},
+                                        {"localhost:9876.0", nullptr, nullptr, "localhost:9876.0"},  // a dead forwarding
+                                        {"unix:9876", nullptr, nullptr, "unix:9876"},
+                                        {"no such host.invalid:0", nullptr, nullptr, "no such host"},
+                                        {nullptr, "wayland-9876", nullptr, "wayland-9876"},
+                                        {nullptr, nullptr, "no-such-platform", "no-such-platform"}}));
+  const Environment environment({{"DISPLAY", c.display}, {"WAYLAND_DISPLAY", c.wayland}, {"QT_QPA_PLATFORM", c.platform}});
+  const std::string missing = describe_missing_display();
+  CHECK_THAT(missing, Contains(c.says));
+  CHECK(missing.find('\n') == std::string::npos);
   CHECK_THROWS_AS(ViewWindow("test"), DeviceError);
+}
+
+TEST_CASE("describe_missing_display: says nothing where a window can be opened") {
+  const Environment environment({{"DISPLAY", nullptr}, {"WAYLAND_DISPLAY", nullptr}, {"QT_QPA_PLATFORM", "offscreen"}});
+  CHECK(describe_missing_display().empty());
 }
 
 }  // namespace foothold::apps

@@ -73,20 +73,41 @@ TEST_CASE("run_train_test: an input without frames is an error that names it") {
 TEST_CASE("protocols: a frame that cannot be used is an error that names the input and the frame") {
   test::LeakDetector relocaliser;
   std::vector<RgbdFrame> frames = {test::make_frame(4), test::make_frame(5)};
-  std::string expected;
-  SECTION("no true pose") {
-    frames[1].world_from_camera.reset();
-    expected = "no true pose";
-  }
-  SECTION("no valid depth") {
-    frames[1].depth = Image<float>(4, 3, std::numeric_limits<float>::quiet_NaN());
-    expected = "4 x 3";
-  }
-  SECTION("images of different size") { frames[1].depth = Image<float>(5, 3, 1.0F); }
+  frames[1].depth = Image<float>(5, 3, 1.0F);  // not the size of its colour image
   const EvaluationInput input = test::make_input(frames, "room");
   REQUIRE_THROWS_AS(run_tracking_loss(relocaliser, input, 0), FileError);
-  REQUIRE_THROWS_WITH(run_tracking_loss(relocaliser, input, 0), Contains("room, frame 5") && Contains(expected));
+  REQUIRE_THROWS_WITH(run_tracking_loss(relocaliser, input, 0), Contains("room, frame 5") && Contains("5x3"));
   REQUIRE_THROWS_WITH(run_train_test(relocaliser, {input}, {input}, 0), Contains("room, frame 5"));
+}
+
+TEST_CASE("run_tracking_loss: frames without a pose are left out, frames without depth are not found and teach nothing; both are counted") {
+  test::LeakDetector relocaliser;
+  std::vector<RgbdFrame> frames;
+  for (int i = 0; i < 6; ++i) frames.push_back(test::make_frame(i));
+  frames[2].world_from_camera.reset();
+  frames[4].depth =
+      Image<float>(frames[4].depth.width(), frames[4].depth.height(), GENERATE(0.0F, std::numeric_limits<float>::quiet_NaN()));
+  const RunLog log = run_tracking_loss(relocaliser, test::make_input(frames), 0);
+  CHECK(relocaliser.calls == Calls{"train 0", "relocalise 1", "train 1", "relocalise 3", "train 3", "relocalise 5", "train 5"});
+  CHECK(log.num_without_pose == 1);
+  CHECK(log.num_without_depth == 1);
+  REQUIRE(log.tests.size() == 4);
+  CHECK(log.tests[2].frame_index == 4);
+  CHECK_FALSE(log.tests[2].best.has_value());
+}
+
+TEST_CASE("run_train_test: counts what its inputs lack") {
+  test::LeakDetector relocaliser;
+  std::vector<RgbdFrame> frames = {test::make_frame(0), test::make_frame(1), test::make_frame(2)};
+  frames[0].world_from_camera.reset();
+  frames[1].depth = Image<float>(frames[1].depth.width(), frames[1].depth.height());
+  const RunLog log = run_train_test(relocaliser, {test::make_input(frames)}, {test::make_input(frames)}, 0);
+  CHECK(relocaliser.calls == Calls{"train 2", "relocalise 2"});
+  CHECK(log.num_without_pose == 2);
+  CHECK(log.num_without_depth == 2);
+  CHECK(log.tests.size() == 2);
+  frames.resize(1);
+  REQUIRE_THROWS_WITH(run_train_test(relocaliser, {test::make_input(frames, "room")}, {}, 0), Contains("room") && Contains("a true pose"));
 }
 
 TEST_CASE("protocols: stages are summed per call and kept apart by kind of call") {

@@ -5,6 +5,7 @@
 #include "foothold/io/image_file.h"
 #include "foothold/io/trajectory.h"
 #include "io_fixtures.h"
+#include "room_recording.h"
 #include "support/catch.h"
 
 namespace foothold {
@@ -14,21 +15,12 @@ using namespace test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
-/// Collects log messages.
-struct LoggingContext {
-  std::string messages;
-  Context context{[this] {
-    ContextOptions options;
-    options.log = [this](LogLevel, const std::string& message) { messages += message + "\n"; };
-    return options;
-  }()};
-};
-
+/// Images of the size of the benchmark's.
 void write_images(const std::string& folder, const std::string& name, int value) {
   fs::create_directories(folder + "/depth");
   fs::create_directories(folder + "/rgb");
-  write_png(folder + "/depth/" + name + ".png", Image<std::uint16_t>(8, 6, static_cast<std::uint16_t>(5000 + value)));
-  write_png(folder + "/rgb/" + name + ".png", Image<Rgb8>(8, 6, {static_cast<std::uint8_t>(value), 0, 0}));
+  write_png(folder + "/depth/" + name + ".png", Image<std::uint16_t>(640, 480, static_cast<std::uint16_t>(5000 + value)));
+  write_png(folder + "/rgb/" + name + ".png", Image<Rgb8>(640, 480, {static_cast<std::uint8_t>(value), 0, 0}));
 }
 
 /// A recording of three frames at 1.0, 1.1 and 1.2 s, colour 5 ms later; ground truth moves along x at 1 m/s, sampled between the frames.
@@ -66,8 +58,8 @@ TEST_CASE("open_sequence: reads a TUM folder, depth in fifths of a millimetre, p
   for (int i = 0; i < 3; ++i) {
     const RgbdFrame frame = sequence->load(i);
     CHECK(describe_frame_error(frame.view()).empty());
-    CHECK(frame.depth(3, 3) == static_cast<float>(5000 + i) / 5000.0F);
-    CHECK(frame.colour(3, 3).r == i);
+    CHECK(frame.depth(300, 300) == static_cast<float>(5000 + i) / 5000.0F);
+    CHECK(frame.colour(300, 300).r == i);
     CHECK(frame.timestamp_s == Approx(1.0 + 0.1 * i));
     REQUIRE(frame.world_from_camera.has_value());
     CHECK(frame.world_from_camera->translation.x() == Approx(1.0 + 0.1 * i).epsilon(1e-6));
@@ -91,25 +83,25 @@ TEST_CASE("open_sequence: a TUM folder's camera is told by its file, its name, o
   const TempFolder temp;
   write_tum_recording(temp / c.name);
   CHECK(open_sequence(temp / c.name, Context())->load(0).calibration.depth.fx == c.fx);
-  write_text(temp / (c.name + "/camera-intrinsics.txt"), "400 0 4 0 401 3 0 0 1");
+  write_text(temp / (c.name + "/camera-intrinsics.txt"), "400 0 320 0 401 240 0 0 1");
   CHECK(open_sequence(temp / c.name, Context())->load(0).calibration.depth.fx == 400.0F);
 }
 
-TEST_CASE("open_sequence: TUM frames without ground truth are left out with a warning, or come without a pose") {
+TEST_CASE("open_sequence: TUM frames without ground truth, or where it was lost, come without a pose, and a warning counts them") {
   const TempFolder temp;
   write_tum_recording(temp.path());
-  write_text(temp / "groundtruth.txt", "0.99 0 0 0 0 0 0 1\n1.05 0 0 0 0 0 0 1\n1.19 0 0 0 0 0 0 1\n1.21 0 0 0 0 0 0 1\n");
+  const std::string truth =
+      GENERATE(as<std::string>{}, "0.99 0 0 0 0 0 0 1\n1.05 0 0 0 0 0 0 1\n1.19 0 0 0 0 0 0 1\n1.21 0 0 0 0 0 0 1\n",
+               "0.99 0 0 0 0 0 0 1\n1.05 0 0 0 0 0 0 1\n1.09 nan nan nan nan nan nan nan\n1.15 0 0 0 0 0 0 1\n1.21 0 0 0 0 0 0 1\n",
+               "0.99 0 0 0 0 0 0 1\n1.05 0 0 0 0 0 0 1\n1.1 0 0 0 0 0 0 0\n1.15 0 0 0 0 0 0 1\n1.21 0 0 0 0 0 0 1\n");
+  write_text(temp / "groundtruth.txt", truth);
   LoggingContext log;
-  const auto with_poses = open_sequence(temp.path(), log.context);
-  CHECK(with_poses->num_frames() == 2);
-  CHECK(with_poses->load(1).timestamp_s == Approx(1.2));
-  CHECK_THAT(log.messages, Contains(temp / "groundtruth.txt") && Contains("1 frames, which are left out"));
-  SequenceOptions options;
-  options.only_with_pose = false;
-  const auto all = open_sequence(temp.path(), Context(), options);
-  REQUIRE(all->num_frames() == 3);
-  CHECK(all->load(0).world_from_camera.has_value());
-  CHECK_FALSE(all->load(1).world_from_camera.has_value());
+  const auto sequence = open_sequence(temp.path(), log.context);
+  REQUIRE(sequence->num_frames() == 3);
+  CHECK(sequence->load(0).world_from_camera.has_value());
+  CHECK_FALSE(sequence->load(1).world_from_camera.has_value());
+  CHECK(sequence->load(2).world_from_camera.has_value());
+  CHECK_THAT(log.warnings, Contains("1 of its 3 frames have no pose"));
 }
 
 TEST_CASE("open_sequence: a TUM folder without ground truth has frames without poses") {
@@ -145,11 +137,65 @@ TEST_CASE("open_sequence: each thing wrong with a TUM folder is named") {
   SECTION("empty list") { CHECK_THAT(breaks("depth.txt", "# nothing\n"), Contains("no image")); }
   SECTION("bad line") { CHECK_THAT(breaks("rgb.txt", "1.0 rgb/0.png\n1.1\n"), Contains("line 2") && Contains("1 words")); }
   SECTION("bad time") { CHECK_THAT(breaks("rgb.txt", "noon rgb/0.png\n"), Contains("line 1") && Contains("'noon'")); }
-  SECTION("lists of different recordings") { CHECK_THAT(breaks("depth.txt", "9.0 depth/0.png\n"), Contains("20 ms")); }
-  SECTION("ground truth of another recording") {
-    CHECK_THAT(breaks("groundtruth.txt", "9 0 0 0 0 0 0 1\n"), Contains("no pose at the time"));
+  SECTION("lists of different recordings") {
+    CHECK_THAT(breaks("depth.txt", "9.0 depth/0.png\n9.1 depth/1.png\n"),
+               Contains("20 ms") && Contains("9.000000") && Contains("1.205000") && Contains("seconds"));
   }
-  SECTION("negative intrinsics") { CHECK_THAT(breaks("camera-intrinsics.txt", "525 0 4 0 -525 3 0 0 1"), Contains("-525")); }
+  SECTION("images outside the folder") {
+    CHECK_THAT(breaks("rgb.txt", "1.0 ../elsewhere/0.png\n"), Contains("'../elsewhere/0.png'") && Contains("line 1"));
+    CHECK_THAT(breaks("rgb.txt", "1.0 /elsewhere/0.png\n"), Contains("'/elsewhere/0.png'"));
+  }
+  SECTION("ground truth of another recording") {
+    CHECK_THAT(breaks("groundtruth.txt", "9 0 0 0 0 0 0 1\n"),
+               Contains("no pose at the time") && Contains("9.000000") && Contains("seconds"));
+  }
+  SECTION("negative intrinsics") { CHECK_THAT(breaks("camera-intrinsics.txt", "525 0 320 0 -525 240 0 0 1"), Contains("-525")); }
+}
+
+TEST_CASE("open_sequence: a TUM list by Windows, a spreadsheet or a logger reads like any other") {
+  const TempFolder temp;
+  write_tum_recording(temp.path());
+  const auto rewrite = [&](const std::string& name, const std::string& text) { write_text(temp / name, text); };
+  SECTION("byte-order mark and Windows' line ends") {
+    rewrite("rgb.txt", "\xef\xbb\xbf# colour\r\n1.005 rgb/0.png\r\n1.105 rgb/1.png\r\n1.205 rgb/2.png\r\n");
+  }
+  SECTION("UTF-16") {
+    const std::string plain = "1.0 depth/0.png\n1.1 depth/1.png\n1.2 depth/2.png\n";
+    std::string wide = "\xff\xfe";
+    for (const char c : plain) wide += {c, '\0'};
+    rewrite("depth.txt", wide);
+  }
+  SECTION("old line ends") { rewrite("rgb.txt", "# colour\r1.005 rgb/0.png\r1.105 rgb/1.png\r1.205 rgb/2.png\r"); }
+  SECTION("comma-separated, with a heading and quotes") {
+    rewrite("rgb.txt", "timestamp,filename\n1.005,\"rgb/0.png\"\n1.105,\"rgb/1.png\"\n1.205,\"rgb/2.png\"\n");
+    rewrite("groundtruth.txt",
+            "timestamp, tx, ty, tz, qx, qy, qz, qw\n0.96, 0.96, 0, 0, 0, 0, 0, 1\n1.04, 1.04, 0, 0, 0, 0, 0, 1\n1.08, 1.08, 0, 0, "
+            "0, 0, 0, 1\n1.14, 1.14, 0, 0, 0, 0, 0, 1\n1.22, 1.22, 0, 0, 0, 0, 0, 1\n");
+  }
+  SECTION("semicolons and decimal commas") {
+    rewrite("groundtruth.txt",
+            "0,96;0,96;0;0;0;0;0;1\n1,04;1,04;0;0;0;0;0;1\n1,08;1,08;0;0;0;0;0;1\n1,14;1,14;0;0;0;0;0;1\n1,22;1,22;0;0;0;0;0;1\n");
+  }
+  SECTION("milliseconds") {
+    rewrite("rgb.txt", "1005 rgb/0.png\n1105 rgb/1.png\n1205 rgb/2.png\n");
+    rewrite("depth.txt", "1000 depth/0.png\n1100 depth/1.png\n1200 depth/2.png\n");
+  }
+  SECTION("nanoseconds, and the ground truth in microseconds") {
+    rewrite("rgb.txt", "1005000000 rgb/0.png\n1105000000 rgb/1.png\n1205000000 rgb/2.png\n");
+    rewrite("depth.txt", "1000000000 depth/0.png\n1100000000 depth/1.png\n1200000000 depth/2.png\n");
+    rewrite("groundtruth.txt",
+            "960000 0.96 0 0 0 0 0 1\n1040000 1.04 0 0 0 0 0 1\n1080000 1.08 0 0 0 0 0 1\n1140000 1.14 0 0 0 0 0 1\n1220000 1.22 "
+            "0 0 0 0 0 1\n");
+  }
+  const auto sequence = open_sequence(temp.path(), Context());
+  REQUIRE(sequence->num_frames() == 3);
+  for (int i = 0; i < 3; ++i) {
+    const RgbdFrame frame = sequence->load(i);
+    CHECK(frame.timestamp_s == Approx(1.0 + 0.1 * i));
+    CHECK(frame.colour(300, 300).r == i);
+    REQUIRE(frame.world_from_camera.has_value());
+    CHECK(frame.world_from_camera->translation.x() == Approx(1.0 + 0.1 * i).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("associate: nearest pairs first, each image once, none further apart than allowed") {

@@ -85,6 +85,8 @@ MethodReport make_report(const RunLog& log) {
   MethodReport report;
   report.num_tested = static_cast<int>(log.tests.size());
   report.num_trained = static_cast<int>(log.trained_world_from_camera.size());
+  report.num_without_pose = log.num_without_pose;
+  report.num_without_depth = log.num_without_depth;
   report.acceptance_threshold = log.acceptance_threshold;
   report_accuracy(log.tests, report);
   report_confidence(log.tests, report);

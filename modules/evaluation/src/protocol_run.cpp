@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Foothold authors
 #include "protocol_run.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "call_meter.h"
@@ -13,40 +14,41 @@ namespace {
 /// Reads that may time out in a row before an input counts as dead.
 constexpr int kMaxTimeouts = 100;
 
-std::string describe_unusable(const RgbdFrame& frame) {
-  const std::string malformed = describe_frame_error(frame.view());
-  if (!malformed.empty()) return malformed;
-  if (!frame.world_from_camera.has_value())
-    return "has no true pose; this protocol learns and judges by true poses, choose a range of frames that have one";
-  for (std::size_t i = 0; i < frame.depth.size(); ++i) {
-    if (is_valid_depth(frame.depth.data()[i])) return {};
-  }
-  return "none of its " + std::to_string(frame.depth.width()) + " x " + std::to_string(frame.depth.height()) +
-         " depth pixels holds a measurement; expected some, choose a range of frames without it";
-}
+bool has_depth(const RgbdFrame& frame) { return std::any_of(frame.depth.data(), frame.depth.data() + frame.depth.size(), is_valid_depth); }
 
 }  // namespace
 
 bool FrameReader::read(RgbdFrame& frame) {
-  for (int num_timeouts = 0; num_timeouts < kMaxTimeouts; ++num_timeouts) {
+  for (int num_timeouts = 0; num_timeouts < kMaxTimeouts;) {
     const ReadStatus status = source_->read(frame);
     if (status == ReadStatus::kEnd) return false;
-    if (status == ReadStatus::kTimedOut) continue;
-    const std::string unusable = describe_unusable(frame);
-    if (!unusable.empty()) throw FileError(name_ + ", frame " + std::to_string(frame.index) + ": " + unusable);
-    return true;
+    if (status == ReadStatus::kTimedOut) {
+      ++num_timeouts;
+      continue;
+    }
+    num_timeouts = 0;
+    const std::string malformed = describe_frame_error(frame.view());
+    if (!malformed.empty()) throw FileError(name_ + ", frame " + std::to_string(frame.index) + ": " + malformed);
+    if (frame.world_from_camera.has_value()) {
+      num_without_depth_ += has_depth(frame) ? 0 : 1;
+      return true;
+    }
+    ++num_without_pose_;
   }
   throw FileError(name_ + ": delivered no frame in " + std::to_string(kMaxTimeouts) + " attempts");
 }
 
 void ProtocolRun::train(const RgbdFrame& frame) {
+  if (!has_depth(frame)) return;
   measure_call(log_.train, options_.trace, [&] { relocaliser_.train(frame.view(), *frame.world_from_camera); });
   log_.trained_world_from_camera.push_back(*frame.world_from_camera);
 }
 
 void ProtocolRun::test(const RgbdFrame& frame, int input_index) {
   std::vector<PoseEstimate> estimates;
-  measure_call(log_.relocalise, options_.trace, [&] { estimates = relocaliser_.relocalise(frame.view()); });
+  if (has_depth(frame)) {
+    measure_call(log_.relocalise, options_.trace, [&] { estimates = relocaliser_.relocalise(frame.view()); });
+  }
   TestRecord record;
   record.input_index = input_index;
   record.frame_index = frame.index;
@@ -67,6 +69,11 @@ void ProtocolRun::update() {
 
 void ProtocolRun::report(int num_done, int num_total) const {
   if (options_.progress) options_.progress({num_done, num_total, static_cast<int>(log_.tests.size()), num_found_});
+}
+
+void ProtocolRun::count(const FrameReader& reader) {
+  log_.num_without_pose += reader.num_without_pose();
+  log_.num_without_depth += reader.num_without_depth();
 }
 
 RunLog ProtocolRun::finish() {

@@ -14,12 +14,18 @@ class FrameReader {
  public:
   explicit FrameReader(const EvaluationInput& input) : name_(input.name), source_(input.open()) {}
 
-  /// @return False at the end.  @throws FileError naming a frame that has no true pose, no valid depth or is malformed.
+  /// Reads the next frame with a true pose. @return False at the end.  @throws FileError naming a frame that is malformed.
   bool read(RgbdFrame& frame);
+  /// Frames passed over so far, for they have no true pose.
+  int num_without_pose() const { return num_without_pose_; }
+  /// Frames read so far that have no valid depth.
+  int num_without_depth() const { return num_without_depth_; }
 
  private:
   std::string name_;
   std::unique_ptr<FrameSource> source_;
+  int num_without_pose_ = 0;
+  int num_without_depth_ = 0;
 };
 
 /// Learns, tests and notes down.
@@ -27,12 +33,17 @@ class ProtocolRun {
  public:
   ProtocolRun(Relocaliser& relocaliser, const ProtocolOptions& options) : relocaliser_(relocaliser), options_(options) {}
 
-  /// Learns a frame with its true pose. @pre the frame came from a FrameReader.
+  /// Learns a frame with its true pose; one without depth teaches nothing. @pre the frame came from a FrameReader.
   void train(const RgbdFrame& frame);
+  /// Tests a frame; one without depth is not found.
   void test(const RgbdFrame& frame, int input_index);
   void update();
   /// Tells that `num_done` of `num_total` frames are done.
   void report(int num_done, int num_total) const;
+  /// Frames learnt so far.
+  std::size_t num_trained() const { return log_.trained_world_from_camera.size(); }
+  /// Notes down what a reader passed over.
+  void count(const FrameReader& reader);
   /// Closes the log.
   RunLog finish();
 

@@ -15,8 +15,9 @@ namespace {
 /// @throws FileError if there are too few frames to learn one and test another.
 void check_num_frames(const std::string& name, int num_frames, int gap) {
   if (num_frames >= gap + 2) return;
-  throw FileError(name + ": got " + std::to_string(num_frames) + (num_frames == 1 ? " frame" : " frames") + ", expected at least " +
-                  std::to_string(gap + 2) + " to learn one and test another with a gap of " + std::to_string(gap));
+  throw FileError(name + ": got " + std::to_string(num_frames) + (num_frames == 1 ? " frame" : " frames") +
+                  " with a pose, expected at least " + std::to_string(gap + 2) + " to learn one and test another with a gap of " +
+                  std::to_string(gap));
 }
 
 }  // namespace
@@ -34,14 +35,14 @@ RunLog run_tracking_loss(Relocaliser& relocaliser, const EvaluationInput& input,
     ++num_read;
     if (num_read > gap) {
       // The oldest waiting frame is i = num_read - 1 - gap and the newest i + gap: all before i is learnt, nothing else.
-      const bool anything_learnt = num_read - 1 - gap > 0;
-      if (anything_learnt) run.test(waiting.back(), 0);
+      if (run.num_trained() > 0) run.test(waiting.back(), 0);
       run.train(waiting.front());
       waiting.pop_front();
     }
     run.report(num_read, input.num_frames);
   }
   check_num_frames(input.name, num_read, gap);
+  run.count(reader);
   return run.finish();
 }
 

@@ -25,7 +25,7 @@ class FrameCounter {
 
 /// Plays an input to its end, handing each frame to `use`.
 template <class Use>
-void for_each_frame(const EvaluationInput& input, Use&& use) {
+void for_each_frame(const EvaluationInput& input, ProtocolRun& run, Use&& use) {
   FrameReader reader(input);
   RgbdFrame frame;
   bool any = false;
@@ -33,7 +33,8 @@ void for_each_frame(const EvaluationInput& input, Use&& use) {
     use(frame);
     any = true;
   }
-  if (!any) throw FileError(input.name + ": has no frames; expected at least one");
+  if (!any) throw FileError(input.name + ": has no frames with a true pose; expected at least one");
+  run.count(reader);
 }
 
 }  // namespace
@@ -44,14 +45,14 @@ RunLog run_train_test(Relocaliser& relocaliser, const std::vector<EvaluationInpu
   ProtocolRun run(relocaliser, options);
   FrameCounter counter(training, tests);
   for (const EvaluationInput& input : training) {
-    for_each_frame(input, [&](const RgbdFrame& frame) {
+    for_each_frame(input, run, [&](const RgbdFrame& frame) {
       run.train(frame);
       counter.count(run);
     });
   }
   for (int i = 0; i < num_settling_updates; ++i) run.update();
   for (std::size_t i = 0; i < tests.size(); ++i) {
-    for_each_frame(tests[i], [&](const RgbdFrame& frame) {
+    for_each_frame(tests[i], run, [&](const RgbdFrame& frame) {
       run.test(frame, static_cast<int>(i));
       counter.count(run);
     });

@@ -2,19 +2,21 @@
 // Copyright (c) 2026 The Foothold authors
 #include "calibration_file.h"
 
-#include <Eigen/LU>
-#include <array>
 #include <cmath>
-#include <sstream>
 
+#include "camera_search.h"
 #include "foothold/io/calibration.h"
+#include "recorded_pose.h"
 #include "text_file.h"
 
 namespace foothold::io {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr Intrinsics kSevenScenesDepth{585.0F, 585.0F, 320.0F, 240.0F};
 constexpr Intrinsics kSevenScenesColour{525.0F, 525.0F, 320.0F, 240.0F};
+constexpr ImageSize kVga{640, 480};
 
 /// Where the Kinect of 7-Scenes has its colour camera, found by letting edges of depth meet edges of colour: docs/sequences.md.
 SE3 seven_scenes_depth_from_colour() {
@@ -31,76 +33,137 @@ bool same(const Intrinsics& a, const Intrinsics& b) {
          std::abs(a.cy - b.cy) < kPrinted_px;
 }
 
-std::string numbers_text(const std::vector<double>& numbers, std::size_t begin, std::size_t count) {
-  std::ostringstream text;
-  for (std::size_t i = begin; i < begin + count; ++i) text << (i == begin ? "" : " ") << numbers[i];
-  return text.str();
+/// A camera with the name of where it was found.
+struct NamedCamera {
+  CameraModel camera;
+  std::string source;
+  std::optional<double> depth_units_per_m;
+};
+
+/// What the user gave: numbers, or the name of a file.
+NamedCamera given_camera(const std::string& text) {
+  const bool is_file = text.find_first_not_of("0123456789.,+-eE ") != std::string::npos;
+  if (is_file) {
+    const CameraFile content = parse_camera(read_text(text, kMaxNumbersFileBytes), text);
+    return {content.camera, text, content.depth_units_per_m};
+  }
+  try {
+    return {parse_camera(plain_text(text), "intrinsics '" + text + "'").camera, "as given", std::nullopt};
+  } catch (const FileError& error) {
+    throw InvalidSettings(error.what());
+  }
 }
 
-Intrinsics read_intrinsics(const std::filesystem::path& file) { return parse_intrinsics(read_file(file, kMaxNumbersFileBytes), file); }
+NamedCamera data_set_camera(const fs::path& folder, const CalibrationHints& hints, const ImageSize& depth_size) {
+  if (hints.data_set.has_value() && hints.data_set->size == depth_size) return {*hints.data_set, hints.data_set_name, std::nullopt};
+  throw FileError(folder.string() + ": no intrinsics for its images of " + to_string(depth_size) +
+                  (hints.data_set.has_value() ? " (" + hints.data_set_name + " has " + to_string(hints.data_set->size) + ")" : "") +
+                  "; expected camera-intrinsics.txt in this folder or the one above, or intrinsics fx,fy,cx,cy of its depth camera "
+                  "(--intrinsics)");
+}
+
+NamedCamera depth_camera(const fs::path& folder, const CalibrationHints& hints, const ImageSize& size, const SequenceOptions& options) {
+  if (!options.intrinsics.empty()) return given_camera(options.intrinsics);
+  if (hints.depth.has_value()) return {*hints.depth, hints.header, std::nullopt};
+  if (const auto found = find_camera(folder, CameraKind::kDepth, false)) {
+    return {found->content.camera, found->file.string(), found->content.depth_units_per_m};
+  }
+  return data_set_camera(folder, hints, size);
+}
+
+/// Makes a camera that of images of a size: enlarges or reduces it where its own size is known. @throws FileError if it cannot be theirs.
+void fit(NamedCamera& named, const ImageSize& size) {
+  CameraModel& camera = named.camera;
+  if (!camera.size.empty() && camera.size != size) {
+    if (!same_shape(camera.size, size)) {
+      throw_file_error(named.source, "a camera of " + to_string(camera.size) + " pixels",
+                       "one of " + to_string(size) + ", as the images have");
+    }
+    named.source += ", resized from " + to_string(camera.size);
+    camera = resized(camera, size);
+  }
+  const std::string impossible = describe_impossible(camera.intrinsics, size);
+  if (!impossible.empty()) {
+    throw_file_error(named.source, impossible,
+                     "those of its images of " + to_string(size) + "; the right ones can be given as fx,fy,cx,cy (--intrinsics)");
+  }
+  camera.size = size;
+}
+
+/// Intrinsics found for depth may be those of a larger colour image, whose shape depth has: then depth was resized to it.
+void fit_depth(NamedCamera& named, const ImageSize& depth_size, const ImageSize& colour_size) {
+  CameraModel& camera = named.camera;
+  const bool is_colours = camera.size.empty() && depth_size != colour_size && same_shape(depth_size, colour_size) &&
+                          !describe_impossible(camera.intrinsics, depth_size).empty() &&
+                          describe_impossible(camera.intrinsics, colour_size).empty();
+  if (is_colours) camera.size = colour_size;
+  fit(named, depth_size);
+}
+
+std::string describe_off_centre(const NamedCamera& named) {
+  constexpr float kMaxShift = 0.2F;  // of a side
+  const Intrinsics& k = named.camera.intrinsics;
+  const auto width = static_cast<float>(named.camera.size.width);
+  const auto height = static_cast<float>(named.camera.size.height);
+  if (std::abs(k.cx / width - 0.5F) <= kMaxShift && std::abs(k.cy / height - 0.5F) <= kMaxShift) return {};
+  return named.source + ": the principal point " + to_string(k).substr(to_string(k).find(' ', to_string(k).find(' ') + 1) + 1) +
+         " is far from the middle of the images of " + to_string(named.camera.size) +
+         "; are these the intrinsics of images of another size?";
+}
+
+struct ColourCamera {
+  NamedCamera named;
+  SE3 depth_from_colour;
+  bool is_depths = false;  ///< taken from the depth camera
+};
+
+ColourCamera colour_camera(const fs::path& folder, const CalibrationHints& hints, const NamedCamera& depth, const ImageSize& size) {
+  const fs::path transform_file = folder / "depth-from-colour.txt";
+  const bool has_transform = fs::exists(transform_file);
+  ColourCamera result;
+  if (has_transform) {
+    result.depth_from_colour = parse_transform(read_text(transform_file, kMaxNumbersFileBytes), transform_file);
+  } else if (hints.depth_from_colour.has_value()) {
+    result.depth_from_colour = *hints.depth_from_colour;
+  }
+  if (hints.colour.has_value()) {
+    result.named = {*hints.colour, hints.header, std::nullopt};
+  } else if (const auto found = find_camera(folder, CameraKind::kColour, true)) {
+    result.named = {found->content.camera, found->file.string(), std::nullopt};
+  } else if (hints.may_be_seven_scenes && !has_transform && depth.camera.size == kVga && same(depth.camera.intrinsics, kSevenScenesDepth)) {
+    return {{{kSevenScenesColour, {}, kVga}, "7-Scenes' own", std::nullopt}, seven_scenes_depth_from_colour(), false};
+  } else {
+    if (!same_shape(size, depth.camera.size)) {
+      throw FileError(folder.string() + ": colour of " + to_string(size) + " and depth of " + to_string(depth.camera.size) +
+                      " pixels, but no intrinsics of the colour camera; expected colour-intrinsics.txt");
+    }
+    result.named = {resized(depth.camera, size), depth.source, std::nullopt};
+    result.is_depths = true;
+  }
+  fit(result.named, size);
+  return result;
+}
 
 }  // namespace
 
-SE3 parse_transform(std::string_view text, const std::filesystem::path& file) {
-  const std::vector<double> numbers = parse_numbers(text, 16, file, "4x4 pose");
-  const Eigen::Matrix4d matrix = Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(numbers.data());
-  const Eigen::RowVector4d last_row(0.0, 0.0, 0.0, 1.0);
-  if ((matrix.row(3) - last_row).cwiseAbs().maxCoeff() > 1e-6) {
-    throw_file_error(file, "a last row of " + numbers_text(numbers, 12, 4), "0 0 0 1");
+SE3 parse_transform(std::string_view text, const fs::path& file) {
+  constexpr double kMax_m = 1e6;  // beyond, single precision no longer resolves a decimetre
+  const std::optional<RecordedPose> transform = pose_from_matrix(parse_numbers(text, 16, file, "4x4 pose"), file);
+  if (!transform.has_value()) throw_file_error(file, "zeros", "a 4x4 pose");
+  const Eigen::Vector3d& translation = transform->translation_m;
+  if (translation.cwiseAbs().maxCoeff() > kMax_m) {
+    throw_file_error(file, "a translation of " + numbers_text(translation.data(), 3), "at most 1e6 m");
   }
-  const Eigen::Matrix3d rotation = matrix.topLeftCorner<3, 3>();
-  const double error = (rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
-  const double determinant = rotation.determinant();
-  if (!(error <= kRotationTolerance) || !(determinant > 0.0)) {
-    std::ostringstream found;
-    found << "a matrix R with |R^T R - I| = " << error << " and determinant " << determinant;
-    std::ostringstream expected;
-    expected << "a rotation: at most " << kRotationTolerance << ", and determinant 1";
-    throw_file_error(file, found.str(), expected.str());
-  }
-  constexpr double kMaxDistance_m = 1e6;  // beyond, single precision no longer resolves a decimetre
-  if (matrix.topRightCorner<3, 1>().cwiseAbs().maxCoeff() > kMaxDistance_m) {
-    throw_file_error(file, "a translation of " + numbers_text({numbers[3], numbers[7], numbers[11]}, 0, 3), "at most 1e6 m");
-  }
-  return {nearest_rotation(rotation.cast<float>()), matrix.topRightCorner<3, 1>().cast<float>()};
+  return to_se3(*transform, Eigen::Vector3d::Zero());
 }
 
-Intrinsics parse_intrinsics(std::string_view text, const std::filesystem::path& file) {
-  const std::vector<double> k = parse_numbers(text, 9, file, "3x3 camera matrix");
-  constexpr double kMaxFocalLength_px = 1e6;
-  for (const std::size_t i : {std::size_t{0}, std::size_t{4}}) {
-    if (!(k[i] >= 1.0 && k[i] <= kMaxFocalLength_px)) {
-      throw_file_error(file, "a focal length of " + numbers_text(k, i, 1) + " pixels", "1 to 1e6");
-    }
-  }
-  for (const std::size_t i : {std::size_t{2}, std::size_t{5}}) {
-    if (!(std::abs(k[i]) <= kMaxFocalLength_px)) {
-      throw_file_error(file, "a principal point at " + numbers_text(k, i, 1) + " pixels", "at most 1e6");
-    }
-  }
-  if (k[1] != 0.0 || k[3] != 0.0 || k[6] != 0.0 || k[7] != 0.0 || k[8] != 1.0) {
-    throw_file_error(file, "the matrix " + numbers_text(k, 0, 9), "fx 0 cx  0 fy cy  0 0 1");
-  }
-  return {static_cast<float>(k[0]), static_cast<float>(k[4]), static_cast<float>(k[2]), static_cast<float>(k[5])};
-}
-
-RgbdCalibration read_seven_scenes_calibration(const std::filesystem::path& folder) {
-  const std::filesystem::path depth_file = folder / "camera-intrinsics.txt";
-  const std::filesystem::path colour_file = folder / "colour-intrinsics.txt";
-  const std::filesystem::path transform_file = folder / "depth-from-colour.txt";
-  const bool has_colour = std::filesystem::exists(colour_file);
-  const bool has_transform = std::filesystem::exists(transform_file);
-
-  RgbdCalibration calibration;
-  calibration.depth = std::filesystem::exists(depth_file) ? read_intrinsics(depth_file) : kSevenScenesDepth;
-  if (!has_colour && !has_transform && same(calibration.depth, kSevenScenesDepth)) {
-    calibration.colour = kSevenScenesColour;
-    calibration.depth_from_colour = seven_scenes_depth_from_colour();
-    return calibration;
-  }
-  calibration.colour = has_colour ? read_intrinsics(colour_file) : calibration.depth;
-  if (has_transform) calibration.depth_from_colour = parse_transform(read_file(transform_file, kMaxNumbersFileBytes), transform_file);
-  return calibration;
+RecordingCalibration find_calibration(const fs::path& folder, const CalibrationHints& hints, const ImageSize& depth_size,
+                                      const ImageSize& colour_size, const SequenceOptions& options) {
+  NamedCamera depth = depth_camera(folder, hints, depth_size, options);
+  fit_depth(depth, depth_size, colour_size);
+  const ColourCamera colour = colour_camera(folder, hints, depth, colour_size);
+  const std::string source = depth.source + (colour.is_depths ? "" : "; colour: " + colour.named.source);
+  return {depth.camera, colour.named.camera, colour.depth_from_colour, source, depth.depth_units_per_m, describe_off_centre(depth)};
 }
 
 }  // namespace foothold::io
@@ -108,9 +171,26 @@ RgbdCalibration read_seven_scenes_calibration(const std::filesystem::path& folde
 namespace foothold {
 
 RgbdCalibration read_calibration(const std::string& folder) {
-  const std::filesystem::path depth_file = std::filesystem::path(folder) / "camera-intrinsics.txt";
+  using namespace io;
+  const std::filesystem::path place = folder;
+  const std::filesystem::path depth_file = place / "camera-intrinsics.txt";
   if (!std::filesystem::exists(depth_file)) throw FileError(depth_file.string() + ": missing; expected the 3x3 matrix of the depth camera");
-  return io::read_seven_scenes_calibration(folder);
+  const auto read = [](const std::filesystem::path& file) {
+    return parse_camera(read_text(file, kMaxNumbersFileBytes), file).camera.intrinsics;
+  };
+  RgbdCalibration calibration;
+  calibration.depth = read(depth_file);
+  const bool has_colour = std::filesystem::exists(place / "colour-intrinsics.txt");
+  const bool has_transform = std::filesystem::exists(place / "depth-from-colour.txt");
+  if (!has_colour && !has_transform && same(calibration.depth, kSevenScenesDepth)) {
+    return {calibration.depth, kSevenScenesColour, seven_scenes_depth_from_colour()};
+  }
+  calibration.colour = has_colour ? read(place / "colour-intrinsics.txt") : calibration.depth;
+  if (has_transform) {
+    calibration.depth_from_colour =
+        parse_transform(read_text(place / "depth-from-colour.txt", kMaxNumbersFileBytes), place / "depth-from-colour.txt");
+  }
+  return calibration;
 }
 
 }  // namespace foothold

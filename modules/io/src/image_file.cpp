@@ -13,12 +13,14 @@
 
 #include "foothold/base/atomic_file.h"
 #include "foothold/base/camera.h"
+#include "image_decoding.h"
+#include "image_header.h"
 #include "text_file.h"
 
 namespace foothold {
 namespace {
 
-constexpr std::size_t kMaxImageBytes = 512U << 20U;
+constexpr const char* kExpected = "a complete PNG or JPEG image";
 
 /// What is wrong with the outer shape of an image file; empty if it begins and ends as it should. Decoders fill in what is missing, so
 /// that a file cut short would otherwise pass as an image with a grey lower half.
@@ -37,20 +39,33 @@ std::string describe_image_error(std::string_view bytes) {
                ? "a JPEG image cut short"
                : "";
   }
+  if (begins_with("P5") || begins_with("P6")) return io::parse_image_header(bytes) ? "" : "a PGM or PPM image cut short";
   return "a file that begins with neither the PNG nor the JPEG signature";
 }
 
-cv::Mat decode(const std::string& path, int flags) {
-  std::string bytes = io::read_file(path, kMaxImageBytes);
-  constexpr const char* kExpected = "a complete PNG or JPEG image";
-  if (const std::string error = describe_image_error(bytes); !error.empty()) io::throw_file_error(path, error, kExpected);
+std::string pixel_text(const io::ImageHeader& header) {
+  return std::to_string(header.num_channels) + " channel(s) of " + std::to_string(header.bits_per_channel) + " bits";
+}
+
+/// The header of an image that may be decoded. @throws FileError
+io::ImageHeader check_image(std::string_view bytes, const std::filesystem::path& name) {
+  if (const std::string error = describe_image_error(bytes); !error.empty()) io::throw_file_error(name, error, kExpected);
+  const std::optional<io::ImageHeader> header = io::parse_image_header(bytes);
+  if (!header.has_value()) io::throw_file_error(name, "an image with a damaged header", kExpected);
+  if (std::int64_t{header->size.width} * header->size.height > io::kMaxImagePixels) {
+    io::throw_file_error(name, to_string(header->size) + " pixels", "at most " + std::to_string(io::kMaxImagePixels) + " in all");
+  }
+  return *header;
+}
+
+cv::Mat decode(std::string bytes, const std::filesystem::path& name, int flags) {
   cv::Mat image;
   try {
     image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data()), flags);
   } catch (const cv::Exception& exception) {
-    io::throw_file_error(path, "an image that cannot be decoded (" + std::string(exception.err) + ")", kExpected);
+    io::throw_file_error(name, "an image that cannot be decoded (" + std::string(exception.err) + ")", kExpected);
   }
-  if (image.empty()) io::throw_file_error(path, "a damaged image", kExpected);
+  if (image.empty()) io::throw_file_error(name, "a damaged image", kExpected);
   return image;
 }
 
@@ -82,8 +97,12 @@ Rgb8 depth_colour(float x) {
 
 }  // namespace
 
-Image<Rgb8> read_rgb_image(const std::string& path) {
-  const cv::Mat bgr = decode(path, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+namespace io {
+
+Image<Rgb8> decode_rgb(std::string bytes, const std::filesystem::path& name) {
+  const ImageHeader header = check_image(bytes, name);
+  if (header.bits_per_channel > 8) throw_file_error(name, pixel_text(header), "colour of 8 bits a channel");
+  const cv::Mat bgr = decode(std::move(bytes), name, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   Image<Rgb8> image(bgr.cols, bgr.rows);
   for (int v = 0; v < bgr.rows; ++v) {
     const auto* row = bgr.ptr<unsigned char>(v);
@@ -93,16 +112,21 @@ Image<Rgb8> read_rgb_image(const std::string& path) {
   return image;
 }
 
-Image<std::uint16_t> read_u16_image(const std::string& path) {
-  const cv::Mat mat = decode(path, cv::IMREAD_UNCHANGED);
-  if (mat.type() != CV_16UC1) {
-    io::throw_file_error(path, std::to_string(mat.channels()) + " channel(s) of " + std::to_string(8 * mat.elemSize1()) + " bits",
-                         "one channel of 16 bits");
-  }
+Image<std::uint16_t> decode_u16(std::string bytes, const std::filesystem::path& name) {
+  const ImageHeader header = check_image(bytes, name);
+  if (header.num_channels != 1 || header.bits_per_channel != 16) throw_file_error(name, pixel_text(header), "one channel of 16 bits");
+  const cv::Mat mat = decode(std::move(bytes), name, cv::IMREAD_UNCHANGED);
+  if (mat.type() != CV_16UC1) throw_file_error(name, "a damaged image", kExpected);
   Image<std::uint16_t> image(mat.cols, mat.rows);
   for (int v = 0; v < mat.rows; ++v) std::copy_n(mat.ptr<std::uint16_t>(v), mat.cols, &image(0, v));
   return image;
 }
+
+}  // namespace io
+
+Image<Rgb8> read_rgb_image(const std::string& path) { return io::decode_rgb(io::read_file(path, io::kMaxImageBytes), path); }
+
+Image<std::uint16_t> read_u16_image(const std::string& path) { return io::decode_u16(io::read_file(path, io::kMaxImageBytes), path); }
 
 void write_png(const std::string& path, const Image<Rgb8>& image) {
   cv::Mat bgr(image.height(), image.width(), CV_8UC3);

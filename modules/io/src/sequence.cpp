@@ -7,11 +7,12 @@
 #include <charconv>
 #include <filesystem>
 
+#include "folder_recording.h"
 #include "foothold/base/contract.h"
+#include "foothold/io/recording.h"
 #include "foothold/synthetic/synthetic_sequence.h"
-#include "seven_scenes_sequence.h"
+#include "sens_file.h"
 #include "text_file.h"
-#include "tum_sequence.h"
 
 namespace foothold {
 namespace {
@@ -28,6 +29,7 @@ class SequencePart : public Sequence {
     FOOTHOLD_EXPECTS(index >= 0 && index < num_frames());
     return whole_->load(begin_ + index);
   }
+  Eigen::Vector3d origin_m() const override { return whole_->origin_m(); }
 
  private:
   std::shared_ptr<Sequence> whole_;
@@ -45,33 +47,35 @@ std::shared_ptr<Sequence> take_part(std::shared_ptr<Sequence> whole, const Frame
   return std::make_shared<SequencePart>(std::move(whole), range.begin, end);
 }
 
+/// The first few names of what is in a folder.
+std::string contents_of(const fs::path& folder) {
+  constexpr std::size_t kMaxNames = 6;
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    names.push_back(entry.path().filename().string() + (entry.is_directory() ? "/" : ""));
+  }
+  std::sort(names.begin(), names.end());
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kMaxNames); ++i) text += (i == 0 ? "" : ", ") + names[i];
+  return names.size() > kMaxNames ? text + " and " + std::to_string(names.size() - kMaxNames) + " more" : text;
+}
+
 [[noreturn]] void throw_unknown_folder(const fs::path& folder) {
   if (fs::is_empty(folder)) throw FileError(folder.string() + ": got an empty folder, expected a recording");
   if (fs::exists(folder / "TrainSplit.txt") || fs::exists(folder / "seq-01")) {
     throw FileError(folder.string() + ": got the folder of a 7-Scenes scene, expected one of its sequences, such as " +
                     (folder / "seq-01").string());
   }
-  throw FileError(folder.string() +
-                  ": got a folder of another kind, expected 7-Scenes (frame-000000.depth.png ...), TUM RGB-D (rgb.txt, depth.txt) or "
-                  "ICL-NUIM (associations.txt)");
-}
-
-std::shared_ptr<Sequence> open_folder(const fs::path& folder, const Context& context, const SequenceOptions& options) {
-  if (!fs::exists(folder)) throw FileError(folder.string() + ": no such folder; expected a recording's folder or synthetic:NAME");
-  if (!fs::is_directory(folder)) io::throw_file_error(folder, "a file", "a recording's folder");
-  if (io::looks_like_seven_scenes(folder)) return io::open_seven_scenes(folder, options);
-  if (io::looks_like_tum(folder)) return io::open_tum(folder, context, options);
-  throw_unknown_folder(folder);
+  std::string known;
+  for (const io::Layout& layout : io::layouts()) known += std::string("\n  ") + layout.name + ": " + layout.description;
+  throw FileError(folder.string() + ": got a folder of another kind, with " + contents_of(folder) +
+                  "; expected a recording in one of these layouts:" + known);
 }
 
 std::shared_ptr<Sequence> open_whole(const std::string& source, const Context& context, const SequenceOptions& options) {
   if (source.empty()) throw InvalidSettings("sequence: got an empty name, expected a recording's folder or synthetic:NAME");
   if (is_synthetic_spec(source)) return make_synthetic_sequence(parse_synthetic_spec(source), context);
-  try {
-    return open_folder(source, context, options);
-  } catch (const fs::filesystem_error& error) {
-    throw FileError(source + ": " + error.code().message());
-  }
+  return open_recording(source, context, options);
 }
 
 /// The position of the '@' that begins a range, or npos. Folders may have an '@' in their names.
@@ -102,6 +106,22 @@ FrameRange parse_frame_range(const std::string& text) {
   const std::string_view view = text;
   const FrameRange range{parse(view.substr(0, colon), 0), parse(view.substr(colon + 1), FrameRange::kToTheEnd)};
   return range.begin < range.end ? range : fail();
+}
+
+std::shared_ptr<Recording> open_recording(const std::string& source, const Context& context, const SequenceOptions& options) {
+  const fs::path folder = source;
+  try {
+    if (!fs::exists(folder)) throw FileError(source + ": no such folder; expected a recording's folder or synthetic:NAME");
+    if (fs::is_regular_file(folder) && folder.extension() == ".sens")
+      return io::make_recording(io::read_sens_file(folder), context, options);
+    if (!fs::is_directory(folder)) io::throw_file_error(folder, "a file", "a recording's folder");
+    for (const io::Layout& layout : io::layouts()) {
+      if (layout.matches(folder)) return io::make_recording(layout.read(folder, context), context, options);
+    }
+    throw_unknown_folder(folder);
+  } catch (const fs::filesystem_error& error) {
+    throw FileError(source + ": " + error.code().message());
+  }
 }
 
 std::shared_ptr<Sequence> open_sequence(const std::string& spec, const Context& context, const SequenceOptions& options) {

@@ -7,10 +7,8 @@
 #include <cstdio>
 #include <map>
 
-#include "calibration_file.h"
-#include "foothold/base/contract.h"
-#include "frame_images.h"
 #include "text_file.h"
+#include "time_unit.h"
 
 namespace foothold::io {
 namespace {
@@ -19,9 +17,9 @@ namespace fs = std::filesystem;
 
 /// Which files of a frame a folder holds.
 struct FrameFiles {
-  bool depth = false;
-  bool pose = false;
+  std::string depth_suffix;   ///< empty if there is no depth
   std::string colour_suffix;  ///< empty if there is no colour
+  bool pose = false;
 };
 
 std::string frame_name(int index, const std::string& suffix) {
@@ -50,10 +48,11 @@ std::map<int, FrameFiles> list_frames(const fs::path& folder) {
   std::string suffix;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     if (!parse_frame_name(entry.path().filename().string(), index, suffix)) continue;
-    if (suffix == ".depth.png") frames[index].depth = true;
-    if (suffix == ".pose.txt") frames[index].pose = true;
+    FrameFiles& files = frames[index];
+    if (suffix == ".pose.txt") files.pose = true;
     // The lossless image wins where a folder has both.
-    if (suffix == ".color.png" || (suffix == ".color.jpg" && frames[index].colour_suffix.empty())) frames[index].colour_suffix = suffix;
+    if (suffix == ".depth.png" || (suffix == ".depth.pgm" && files.depth_suffix.empty())) files.depth_suffix = suffix;
+    if (suffix == ".color.png" || (suffix == ".color.jpg" && files.colour_suffix.empty())) files.colour_suffix = suffix;
   }
   return frames;
 }
@@ -62,71 +61,35 @@ std::map<int, FrameFiles> list_frames(const fs::path& folder) {
   throw FileError((folder / name).string() + ": no such file, but " + reason);
 }
 
-/// The files of frames 0, 1, ...; complains about the first one that is missing.
+/// The files of frames 0, 1, ...; complains about the first image that is missing.
 std::vector<FrameFiles> complete_frames(const fs::path& folder) {
-  const std::map<int, FrameFiles> found = list_frames(folder);
-  bool any_pose = false;
-  for (const auto& [index, files] : found) any_pose = any_pose || files.pose;
   std::vector<FrameFiles> frames;
-  for (const auto& [index, files] : found) {
+  for (const auto& [index, files] : list_frames(folder)) {
     const int expected = static_cast<int>(frames.size());
     const std::string reason = "frames are numbered from 0 without gaps, and there are files of frame " + std::to_string(index);
     if (index != expected) throw_missing(folder, frame_name(expected, ".depth.png"), reason);
     const std::string other = "there are other files of frame " + std::to_string(index);
-    if (!files.depth) throw_missing(folder, frame_name(index, ".depth.png"), other);
+    if (files.depth_suffix.empty()) throw_missing(folder, frame_name(index, ".depth.png"), other);
     if (files.colour_suffix.empty()) throw_missing(folder, frame_name(index, ".color.png") + " (or .color.jpg)", other);
-    if (!files.pose && any_pose) throw_missing(folder, frame_name(index, ".pose.txt"), other + ", and other frames have poses");
     frames.push_back(files);
   }
   return frames;
 }
 
 /// Times of the frames [s]: from timestamps.txt, or 30 Hz.
-std::vector<double> read_timestamps(const fs::path& folder, std::size_t num_frames) {
-  constexpr double kFrameRate_hz = 30.0;
+std::vector<double> read_timestamps(const fs::path& folder, std::size_t num_frames, const Context& context) {
   const fs::path file = folder / "timestamps.txt";
-  if (fs::exists(file)) return parse_timestamps(read_file(file, kMaxListFileBytes), num_frames, file);
+  if (fs::exists(file)) {
+    std::vector<double> times = parse_timestamps(read_text(file, kMaxListFileBytes), num_frames, file);
+    const double s_per_unit = seconds_per_unit(times);
+    if (s_per_unit != 1.0) context.log(LogLevel::kInfo, file.string() + ": read as " + time_unit_name(s_per_unit));
+    for (double& time : times) time *= s_per_unit;
+    return times;
+  }
   std::vector<double> times_s;
-  for (std::size_t i = 0; i < num_frames; ++i) times_s.push_back(static_cast<double>(i) / kFrameRate_hz);
+  for (std::size_t i = 0; i < num_frames; ++i) times_s.push_back(static_cast<double>(i) / kDefaultFrameRate_hz);
   return times_s;
 }
-
-class SevenScenesSequence : public Sequence {
- public:
-  SevenScenesSequence(const fs::path& folder, const SequenceOptions& options)
-      : folder_(folder),
-        options_(options),
-        frames_(complete_frames(folder)),
-        calibration_(read_seven_scenes_calibration(folder)),
-        times_s_(read_timestamps(folder, frames_.size())) {}
-
-  std::string name() const override { return recording_name(folder_); }
-  int num_frames() const override { return static_cast<int>(frames_.size()); }
-
-  RgbdFrame load(int index) const override {
-    FOOTHOLD_EXPECTS(index >= 0 && index < num_frames());
-    constexpr float kMillimetres = 1000.0F;
-    const FrameFiles& files = frames_[static_cast<std::size_t>(index)];
-    RgbdFrame frame;
-    frame.calibration = calibration_;
-    frame.index = index;
-    frame.timestamp_s = times_s_[static_cast<std::size_t>(index)];
-    if (files.pose) {
-      const fs::path pose_file = folder_ / frame_name(index, ".pose.txt");
-      frame.world_from_camera = parse_transform(read_file(pose_file, kMaxNumbersFileBytes), pose_file);
-    }
-    read_frame_images(folder_ / frame_name(index, files.colour_suffix), folder_ / frame_name(index, ".depth.png"), kMillimetres, options_,
-                      frame);
-    return frame;
-  }
-
- private:
-  fs::path folder_;
-  SequenceOptions options_;
-  std::vector<FrameFiles> frames_;
-  RgbdCalibration calibration_;
-  std::vector<double> times_s_;
-};
 
 }  // namespace
 
@@ -150,8 +113,24 @@ std::vector<double> parse_timestamps(std::string_view text, std::size_t num_fram
   return times_s;
 }
 
-std::unique_ptr<Sequence> open_seven_scenes(const fs::path& folder, const SequenceOptions& options) {
-  return std::make_unique<SevenScenesSequence>(folder, options);
+FoundRecording read_seven_scenes(const fs::path& folder, const Context& context) {
+  const std::vector<FrameFiles> files = complete_frames(folder);
+  const std::vector<double> times_s = read_timestamps(folder, files.size(), context);
+  FoundRecording found;
+  found.folder = folder;
+  found.layout = "7-Scenes";
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const int index = static_cast<int>(i);
+    RecordedFrame frame{
+        {folder / frame_name(index, files[i].depth_suffix)}, {folder / frame_name(index, files[i].colour_suffix)}, times_s[i], {}};
+    const fs::path pose_file = folder / frame_name(index, ".pose.txt");
+    if (files[i].pose) frame.pose = parse_pose(read_text(pose_file, kMaxNumbersFileBytes), pose_file);
+    found.frames.push_back(std::move(frame));
+  }
+  found.calibration.data_set = CameraModel{{585.0F, 585.0F, 320.0F, 240.0F}, {}, {640, 480}};
+  found.calibration.data_set_name = "7-Scenes' own";
+  found.calibration.may_be_seven_scenes = true;
+  return found;
 }
 
 }  // namespace foothold::io

@@ -4,11 +4,10 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string_view>
 #include <vector>
 
-#include "foothold/io/sequence.h"
+#include "found_recording.h"
 
 namespace foothold::io {
 
@@ -21,9 +20,8 @@ std::vector<double> parse_timestamps(std::string_view text, std::size_t num_fram
 /// Parses TrainSplit.txt or TestSplit.txt: lines of "sequenceN". @return "seq-NN" for each. @throws FileError
 std::vector<std::string> parse_split(std::string_view text, const std::filesystem::path& file);
 
-/// Opens a folder of frame-NNNNNN.{color.png|color.jpg,depth.png,pose.txt}, numbered from 0 without gaps. Every frame has a pose, or none
-/// has. Without timestamps.txt, frames are 1/30 s apart.
-/// @throws FileError naming the first file that is missing.
-std::unique_ptr<Sequence> open_seven_scenes(const std::filesystem::path& folder, const SequenceOptions& options);
+/// Reads a folder of frame-NNNNNN.{color.png|color.jpg,depth.png|depth.pgm,pose.txt}, numbered from 0 without gaps. Without timestamps.txt,
+/// frames are 1/30 s apart. @throws FileError naming the first image that is missing.
+FoundRecording read_seven_scenes(const std::filesystem::path& folder, const Context& context);
 
 }  // namespace foothold::io

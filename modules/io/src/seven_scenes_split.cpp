@@ -50,7 +50,7 @@ std::vector<std::string> read_split(const std::string& scene_folder, const std::
                     (is_sequence ? " This is one of its sequences; its scene would be " + parent.string() : ""));
   }
   std::vector<std::string> sequences;
-  for (const std::string& name : io::parse_split(io::read_file(file, io::kMaxNumbersFileBytes), file)) {
+  for (const std::string& name : io::parse_split(io::read_text(file, io::kMaxNumbersFileBytes), file)) {
     const fs::path sequence = folder / name;
     if (!fs::is_directory(sequence)) {
       const fs::path packed = sequence.string() + ".zip";

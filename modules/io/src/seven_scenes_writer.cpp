@@ -13,7 +13,6 @@
 #include "foothold/base/error.h"
 #include "foothold/base/number_text.h"
 #include "foothold/io/image_file.h"
-#include "frame_images.h"
 #include "seven_scenes_sequence.h"
 
 namespace foothold {
@@ -105,6 +104,7 @@ void SevenScenesWriter::write_calibration() const {
   write_file_atomically(path("camera-intrinsics.txt"), intrinsics_text(calibration_.depth));
   write_file_atomically(path("colour-intrinsics.txt"), intrinsics_text(calibration_.colour));
   write_file_atomically(path("depth-from-colour.txt"), transform_text(calibration_.depth_from_colour));
+  write_file_atomically(path("depth-scale.txt"), "1000\n");
 }
 
 std::string SevenScenesWriter::path(const std::string& name) const { return (std::filesystem::path(folder_) / name).string(); }

@@ -2,13 +2,74 @@
 // Copyright (c) 2026 The Foothold authors
 #include "text_file.h"
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 
 namespace foothold::io {
+namespace {
+
+constexpr std::string_view kBlanks = " \t\r\n\v\f";
+
+/// UTF-16 with a byte-order mark as UTF-8. What is beyond the basic plane is no part of lists of numbers, and becomes '?'.
+std::string from_utf16(std::string_view bytes) {
+  const std::size_t high = bytes[0] == '\xfe' ? 0 : 1;
+  std::string text;
+  for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
+    const unsigned unit =
+        static_cast<unsigned char>(bytes[i + high]) << 8U | static_cast<unsigned>(static_cast<unsigned char>(bytes[i + 1 - high]));
+    if (unit < 0x80) {
+      text += static_cast<char>(unit);
+    } else if (unit < 0x800) {
+      text += {static_cast<char>(0xc0 | unit >> 6U), static_cast<char>(0x80 | (unit & 0x3fU))};
+    } else if (unit >= 0xd800 && unit < 0xe000) {
+      text += '?';
+    } else {
+      text +=
+          {static_cast<char>(0xe0 | unit >> 12U), static_cast<char>(0x80 | (unit >> 6U & 0x3fU)), static_cast<char>(0x80 | (unit & 0x3fU))};
+    }
+  }
+  return text;
+}
+
+/// True if a line is a row of values with a separator between them: blanks, if any, stand beside separators only.
+bool is_separated_by(char separator, std::string_view line) {
+  if (line.find(separator) == std::string_view::npos) return false;
+  const std::vector<std::string_view> words = split_words(line);
+  for (std::size_t i = 0; i + 1 < words.size(); ++i) {
+    if (words[i].back() != separator && words[i + 1].front() != separator) return false;
+  }
+  return true;
+}
+
+void separate_by_blanks(std::string& text, std::size_t begin, std::size_t end) {
+  const std::string_view line = std::string_view(text).substr(begin, end - begin);
+  const char separator = is_separated_by(';', line) ? ';' : is_separated_by(',', line) ? ',' : '\0';
+  if (separator == '\0') return;
+  for (std::size_t i = begin; i < end; ++i) {
+    if (text[i] == separator || text[i] == '"') {
+      text[i] = ' ';
+    } else if (text[i] == ',') {
+      text[i] = '.';
+    }
+  }
+}
+
+/// True for the name of a table's first column.
+bool is_heading(std::string_view word) {
+  constexpr std::array<std::string_view, 5> kNames{"time", "stamp", "%time", "frame", "index"};
+  std::string lower(word.substr(0, 16));
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return std::any_of(kNames.begin(), kNames.end(), [&](std::string_view name) { return lower.rfind(name, 0) == 0; });
+}
+
+}  // namespace
 
 void throw_file_error(const std::filesystem::path& file, const std::string& found, const std::string& expected) {
   throw FileError(file.string() + ": got " + found + ", expected " + expected);
@@ -19,6 +80,7 @@ std::string read_file(const std::filesystem::path& file, std::size_t max_bytes) 
   const auto status = std::filesystem::status(file, error);
   if (status.type() == std::filesystem::file_type::not_found) throw FileError(file.string() + ": no such file");
   if (std::filesystem::is_directory(status)) throw_file_error(file, "a folder", "a file");
+  if (!error && !std::filesystem::is_regular_file(status)) throw_file_error(file, "a pipe or device", "a file");
   errno = 0;
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw FileError(file.string() + ": cannot be opened for reading: " + std::strerror(errno));
@@ -34,6 +96,24 @@ std::string read_file(const std::filesystem::path& file, std::size_t max_bytes) 
   return bytes;
 }
 
+std::string read_text(const std::filesystem::path& file, std::size_t max_bytes) { return plain_text(read_file(file, max_bytes)); }
+
+std::string plain_text(std::string text) {
+  using namespace std::string_view_literals;
+  const std::string_view view = text;
+  if (view.substr(0, 3) == "\xef\xbb\xbf"sv) text.erase(0, 3);
+  if (view.substr(0, 2) == "\xff\xfe"sv || view.substr(0, 2) == "\xfe\xff"sv) text = from_utf16(view);
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] == '\r') text[i] = i + 1 < text.size() && text[i + 1] == '\n' ? ' ' : '\n';
+  }
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    separate_by_blanks(text, begin, end);
+    begin = end + 1;
+  }
+  return text;
+}
+
 std::string in_quotes(std::string_view text) {
   constexpr std::size_t kMaxLength = 60;
   std::string result = "'";
@@ -42,7 +122,6 @@ std::string in_quotes(std::string_view text) {
 }
 
 std::vector<std::string_view> split_words(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r\n\v\f";
   std::vector<std::string_view> words;
   for (std::size_t begin = text.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
     const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
@@ -59,7 +138,9 @@ std::vector<TextLine> split_lines(std::string_view text) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     TextLine line{++number, split_words(text.substr(0, end))};
     text.remove_prefix(std::min(end + 1, text.size()));
-    if (!line.words.empty() && line.words.front().front() != '#') lines.push_back(std::move(line));
+    if (line.words.empty() || line.words.front().front() == '#') continue;
+    if (lines.empty() && line.words.size() > 1 && is_heading(line.words.front())) continue;
+    lines.push_back(std::move(line));
   }
   return lines;
 }
@@ -72,6 +153,20 @@ double parse_number(std::string_view word, const std::filesystem::path& file, co
   const bool complete = !digits.empty() && error == std::errc() && end == digits.data() + digits.size();
   if (!complete || !std::isfinite(value)) throw_file_error(file, in_quotes(word), "a finite number as " + what);
   return value;
+}
+
+bool is_not_finite(std::string_view word) {
+  if (!word.empty() && (word.front() == '-' || word.front() == '+')) word.remove_prefix(1);
+  std::string lower(word.substr(0, 8));
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return lower.rfind("nan", 0) == 0 || lower.rfind("inf", 0) == 0 || lower.rfind("1.#", 0) == 0;
+}
+
+std::string numbers_text(const double* numbers, std::size_t count) {
+  std::ostringstream text;
+  text.precision(9);
+  for (std::size_t i = 0; i < count; ++i) text << (i == 0 ? "" : " ") << numbers[i];
+  return text.str();
 }
 
 std::vector<double> parse_numbers(std::string_view text, std::size_t count, const std::filesystem::path& file, const std::string& what) {

@@ -16,8 +16,17 @@ namespace foothold::io {
 /// Throws FileError "file: got <found>, expected <expected>".
 [[noreturn]] void throw_file_error(const std::filesystem::path& file, const std::string& found, const std::string& expected);
 
-/// The bytes of a file. @throws FileError if it cannot be opened or is larger than `max_bytes`.
+/// The bytes of a file. @throws FileError if it is no regular file (pipes and devices may never end), cannot be opened, or is larger than
+/// `max_bytes`.
 std::string read_file(const std::filesystem::path& file, std::size_t max_bytes);
+
+/// The text of a file, by read_file() and plain_text(). @throws FileError
+std::string read_text(const std::filesystem::path& file, std::size_t max_bytes);
+
+/// Text as Windows, spreadsheets and loggers write it, made plain: byte-order marks are dropped, UTF-16 becomes UTF-8, lines end in '\n',
+/// and in lines of comma- or semicolon-separated values blanks take the place of separators and quotes. Where semicolons separate, commas
+/// become decimal points.
+std::string plain_text(std::string text);
 
 /// Text from outside, made fit for a message: quoted, without control characters, and cut when long.
 std::string in_quotes(std::string_view text);
@@ -31,11 +40,18 @@ struct TextLine {
   std::vector<std::string_view> words;
 };
 
-/// The lines of a text that hold words and do not begin with '#'.
+/// The lines of a text that hold words, do not begin with '#', and are not a table's heading: a first line that begins with the name of a
+/// column, such as "timestamp".
 std::vector<TextLine> split_lines(std::string_view text);
 
 /// Parses a finite number. @param what  what the number is, for the message. @throws FileError
 double parse_number(std::string_view word, const std::filesystem::path& file, const std::string& what);
+
+/// True for a word by which printf() writes what is not a finite number: "nan", "-inf", "-1.#IND".
+bool is_not_finite(std::string_view word);
+
+/// Numbers as text, separated by blanks.
+std::string numbers_text(const double* numbers, std::size_t count);
 
 /// Parses a text of exactly `count` finite numbers. @param what  such as "4x4 pose". @throws FileError
 std::vector<double> parse_numbers(std::string_view text, std::size_t count, const std::filesystem::path& file, const std::string& what);

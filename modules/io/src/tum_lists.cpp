@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "text_file.h"
 #include "tum_sequence.h"
@@ -11,7 +13,11 @@ namespace {
 
 StampedFile parse_stamped_file(const TextLine& line, std::size_t column, const std::filesystem::path& file) {
   const std::string where = "line " + std::to_string(line.number);
-  return {parse_number(line.words[column], file, "the time in " + where), std::string(line.words[column + 1])};
+  StampedFile image{parse_number(line.words[column], file, "the time in " + where), std::string(line.words[column + 1])};
+  const std::filesystem::path path = image.name;
+  const bool leads_out = path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
+  if (leads_out) throw_file_error(file, in_quotes(image.name) + " in " + where, "an image in the folder of this list");
+  return image;
 }
 
 bool earlier(const StampedFile& a, const StampedFile& b) { return a.timestamp_s < b.timestamp_s; }
@@ -77,6 +83,22 @@ std::vector<ImagePair> associate(const std::vector<StampedFile>& depth, const st
     if (partner[d] != kNone) pairs.push_back({depth[d], colour[partner[d]]});
   }
   return pairs;
+}
+
+std::pair<std::size_t, std::size_t> nearest_pair(const std::vector<StampedFile>& depth, const std::vector<StampedFile>& colour) {
+  std::pair<std::size_t, std::size_t> nearest{0, 0};
+  const auto apart_s = [&](std::size_t d, std::size_t c) { return std::abs(depth[d].timestamp_s - colour[c].timestamp_s); };
+  for (std::size_t d = 0, c = 0; d < depth.size(); ++d) {
+    while (c + 1 < colour.size() && apart_s(d, c + 1) <= apart_s(d, c)) ++c;
+    if (apart_s(d, c) < apart_s(nearest.first, nearest.second)) nearest = {d, c};
+  }
+  return nearest;
+}
+
+std::string time_text(double time_s) {
+  std::array<char, 340> text{};
+  std::snprintf(text.data(), text.size(), "%.6f", time_s);
+  return text.data();
 }
 
 }  // namespace foothold::io

@@ -6,10 +6,8 @@
 #include <cctype>
 #include <cmath>
 
-#include "calibration_file.h"
-#include "foothold/base/contract.h"
-#include "frame_images.h"
 #include "text_file.h"
+#include "time_unit.h"
 #include "trajectory.h"
 
 namespace foothold::io {
@@ -17,40 +15,48 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Depth images count fifths of a millimetre, in both data sets.
-constexpr float kDepthUnitsPerM = 5000.0F;
+/// Depth images count fifths of a millimetre, in most data sets of this layout.
+constexpr double kDepthUnitsPerM = 5000.0;
+/// OpenLORIS keeps the RealSense's millimetres.
+constexpr double kOpenLorisDepthUnitsPerM = 1000.0;
 /// Images further apart than this are not of one frame; half the time between frames and a little.
 constexpr double kMaxPairDifference_s = 0.02;
 /// Longest silence of the ground truth to interpolate over: ten samples of the motion capture system, three frames of a moving camera.
 constexpr double kMaxPoseGap_s = 0.1;
-/// ICL-NUIM counts frames instead of seconds.
-constexpr double kIclFrameRate_hz = 30.0;
 
-constexpr Intrinsics kIclNuim{481.20F, 480.0F, 319.5F, 239.5F};
-constexpr Intrinsics kRosDefault{525.0F, 525.0F, 319.5F, 239.5F};
-/// Of the benchmark's three cameras, from its page on file formats. Lens distortion is left as it is (the third has none).
-constexpr std::array<Intrinsics, 3> kFreiburg{
-    {{517.3F, 516.5F, 318.6F, 255.3F}, {520.9F, 521.0F, 325.1F, 249.7F}, {535.4F, 539.2F, 320.1F, 247.6F}}};
+constexpr ImageSize kVga{640, 480};
+constexpr CameraModel kIclNuim{{481.20F, 480.0F, 319.5F, 239.5F}, {}, kVga};
+constexpr CameraModel kRosDefault{{525.0F, 525.0F, 319.5F, 239.5F}, {}, kVga};
+
+CameraModel bent(const Intrinsics& intrinsics, const std::array<double, 8>& coefficients) {
+  return {intrinsics, {Distortion::Model::kBrownConrady, coefficients}, kVga};
+}
+
+/// The benchmark's three cameras, from its page on file formats; the third was undistorted before. [Sturm2012]
+const std::array<CameraModel, 3>& freiburg() {
+  static const std::array<CameraModel, 3> cameras{bent({517.3F, 516.5F, 318.6F, 255.3F}, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}),
+                                                  bent({520.9F, 521.0F, 325.1F, 249.7F}, {0.2312, -0.7849, -0.0033, -0.0001, 0.9172}),
+                                                  bent({535.4F, 539.2F, 320.1F, 247.6F}, {})};
+  return cameras;
+}
+
+/// The camera of the Bonn RGB-D Dynamic Dataset, from its page [Palazzolo2019].
+CameraModel bonn() { return bent({542.822841F, 542.576870F, 315.593520F, 237.756098F}, {0.039903, -0.099343, -0.000730, -0.000144, 0.0}); }
 
 /// The camera that a folder's name tells, as in "rgbd_dataset_freiburg1_xyz" or "fr3_office".
-Intrinsics intrinsics_by_name(const std::string& name) {
+CameraModel camera_by_name(const std::string& name) {
+  if (name.find("bonn") != std::string::npos) return bonn();
   for (const std::string prefix : {"freiburg", "fr"}) {
     for (std::size_t at = name.find(prefix); at != std::string::npos; at = name.find(prefix, at + 1)) {
       const std::size_t digit = at + prefix.size();
       const bool number_ends = digit + 1 >= name.size() || std::isdigit(static_cast<unsigned char>(name[digit + 1])) == 0;
       if (digit < name.size() && name[digit] >= '1' && name[digit] <= '3' && number_ends) {
-        return kFreiburg[static_cast<std::size_t>(name[digit] - '1')];
+        return freiburg()[static_cast<std::size_t>(name[digit] - '1')];
       }
     }
   }
   return kRosDefault;
 }
-
-/// A frame of the recording.
-struct TumFrame {
-  ImagePair images;
-  std::optional<SE3> world_from_camera;
-};
 
 /// What a folder's files say.
 struct TumFolder {
@@ -74,15 +80,51 @@ TumFolder inspect(const fs::path& path) {
   return folder;
 }
 
-std::vector<ImagePair> read_pairs(const fs::path& folder, const Context& context) {
-  const auto read_list = [&](const char* name) { return parse_image_list(read_file(folder / name, kMaxListFileBytes), folder / name); };
-  if (!fs::exists(folder / "rgb.txt") && !fs::exists(folder / "depth.txt")) {
-    const fs::path file = folder / "associations.txt";
-    return parse_associations(read_file(file, kMaxListFileBytes), file);
+/// The first of some lists that a folder holds; the last name where it holds none.
+fs::path list_file(const fs::path& folder, std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (fs::exists(folder / name)) return folder / name;
   }
-  const std::vector<StampedFile> depth = read_list("depth.txt");
-  std::vector<ImagePair> pairs = associate(depth, read_list("rgb.txt"), kMaxPairDifference_s);
-  if (pairs.empty()) throw_file_error(folder / "depth.txt", "no time within 20 ms of one in rgb.txt", "images of one recording");
+  return folder / *(names.end() - 1);
+}
+
+fs::path depth_list(const fs::path& folder) { return list_file(folder, {"aligned_depth.txt", "depth.txt"}); }
+fs::path colour_list(const fs::path& folder) { return list_file(folder, {"colour.txt", "color.txt", "rgb.txt"}); }
+
+/// Brings the times of a list to seconds.
+void settle_times(std::vector<StampedFile>& images, const fs::path& file, const Context& context) {
+  std::vector<double> times;
+  for (const StampedFile& image : images) times.push_back(image.timestamp_s);
+  const double s_per_unit = seconds_per_unit(times);
+  if (s_per_unit == 1.0) return;
+  for (StampedFile& image : images) image.timestamp_s *= s_per_unit;
+  context.log(LogLevel::kInfo, file.string() + ": its times are read as " + time_unit_name(s_per_unit));
+}
+
+[[noreturn]] void throw_no_pair(const fs::path& file, const std::vector<StampedFile>& depth, const std::vector<StampedFile>& colour) {
+  const auto [d, c] = nearest_pair(depth, colour);
+  throw_file_error(file,
+                   "no time within 20 ms of one in the list of colour images: the nearest two are " + time_text(depth[d].timestamp_s) +
+                       " and " + time_text(colour[c].timestamp_s),
+                   "images of one recording, their times in seconds");
+}
+
+std::vector<ImagePair> read_pairs(const fs::path& folder, const Context& context) {
+  const fs::path depth_file = depth_list(folder);
+  const fs::path colour_file = colour_list(folder);
+  if (!fs::exists(colour_file) && !fs::exists(depth_file)) {
+    const fs::path file = folder / "associations.txt";
+    return parse_associations(read_text(file, kMaxListFileBytes), file);
+  }
+  const auto read_list = [&](const fs::path& file) {
+    std::vector<StampedFile> images = parse_image_list(read_text(file, kMaxListFileBytes), file);
+    settle_times(images, file, context);
+    return images;
+  };
+  const std::vector<StampedFile> depth = read_list(depth_file);
+  const std::vector<StampedFile> colour = read_list(colour_file);
+  std::vector<ImagePair> pairs = associate(depth, colour, kMaxPairDifference_s);
+  if (pairs.empty()) throw_no_pair(depth_file, depth, colour);
   if (pairs.size() < depth.size()) {
     context.log(LogLevel::kInfo, folder.string() + ": " + std::to_string(depth.size() - pairs.size()) + " of " +
                                      std::to_string(depth.size()) + " depth images left out: no colour image within 20 ms");
@@ -90,83 +132,65 @@ std::vector<ImagePair> read_pairs(const fs::path& folder, const Context& context
   return pairs;
 }
 
-/// ICL-NUIM's world and camera have y upwards, and so a negative focal length. Mirroring both along y gives our camera and, since a pose
-/// M T M is rigid again, an equivalent world.
-SE3 mirror_y(const SE3& pose) {
-  const Eigen::Vector3f mirror(1.0F, -1.0F, 1.0F);
-  return {mirror.asDiagonal() * pose.rotation * mirror.asDiagonal(), mirror.asDiagonal() * pose.translation};
-}
-
 void check_exists(const fs::path& file, const char* list) {
   if (!fs::exists(file)) throw FileError(file.string() + ": no such file, but " + list + " lists it");
 }
 
-std::vector<TumFrame> read_frames(const TumFolder& folder, const Context& context, const SequenceOptions& options) {
-  std::vector<StampedPose> trajectory;
-  if (!folder.ground_truth.empty()) trajectory = parse_trajectory(read_file(folder.ground_truth, kMaxListFileBytes), folder.ground_truth);
-  std::vector<TumFrame> frames;
-  std::size_t num_without_pose = 0;
-  for (const ImagePair& pair : read_pairs(folder.path, context)) {
-    check_exists(folder.path / pair.depth.name, "a list beside it");
-    check_exists(folder.path / pair.colour.name, "a list beside it");
-    TumFrame frame{pair, interpolate(trajectory, pair.depth.timestamp_s, kMaxPoseGap_s)};
-    if (frame.world_from_camera && folder.is_icl_nuim) frame.world_from_camera = mirror_y(*frame.world_from_camera);
-    if (!frame.world_from_camera) ++num_without_pose;
-    if (frame.world_from_camera || trajectory.empty() || !options.only_with_pose) frames.push_back(std::move(frame));
-  }
-  if (frames.empty()) throw_file_error(folder.ground_truth, "no pose at the time of any frame", "the ground truth of this recording");
-  if (num_without_pose > 0 && !trajectory.empty()) {
-    context.log(LogLevel::kWarning, folder.ground_truth.string() + ": says nothing about " + std::to_string(num_without_pose) +
-                                        " frames, which " + (options.only_with_pose ? "are left out" : "come without a pose"));
-  }
-  return frames;
+/// The ground truth, its times brought to those of the frames. Empty without any.
+std::vector<TruePose> read_truth(const TumFolder& folder, double first_frame_s, double last_frame_s, const Context& context) {
+  const fs::path& file = folder.ground_truth;
+  if (file.empty()) return {};
+  std::vector<TruePose> truth = parse_ground_truth(read_text(file, kMaxListFileBytes), file);
+  const double s_per_unit = overlapping_unit(truth.front().timestamp_s, truth.back().timestamp_s, first_frame_s, last_frame_s);
+  if (s_per_unit == 1.0) return truth;
+  for (TruePose& sample : truth) sample.timestamp_s *= s_per_unit;
+  context.log(LogLevel::kInfo, file.string() + ": its times are read as " + time_unit_name(s_per_unit));
+  return truth;
 }
 
-class TumSequence : public Sequence {
- public:
-  TumSequence(const TumFolder& folder, std::vector<TumFrame> frames, const SequenceOptions& options)
-      : folder_(folder), frames_(std::move(frames)), options_(options) {
-    const fs::path file = folder.path / "camera-intrinsics.txt";
-    if (fs::exists(file)) {
-      calibration_.depth = parse_intrinsics(read_file(file, kMaxNumbersFileBytes), file);
-    } else {
-      calibration_.depth = folder.is_icl_nuim ? kIclNuim : intrinsics_by_name(recording_name(folder.path));
-    }
-    calibration_.colour = calibration_.depth;
+void add_poses(const TumFolder& folder, std::vector<RecordedFrame>& frames, const Context& context) {
+  const double first_s = frames.front().timestamp_s;
+  const double last_s = frames.back().timestamp_s;
+  const std::vector<TruePose> truth = read_truth(folder, first_s, last_s, context);
+  bool any = false;
+  for (RecordedFrame& frame : frames) {
+    frame.pose = interpolate(truth, frame.timestamp_s, kMaxPoseGap_s);
+    any = any || frame.pose.has_value();
   }
-
-  std::string name() const override { return recording_name(folder_.path); }
-  int num_frames() const override { return static_cast<int>(frames_.size()); }
-
-  RgbdFrame load(int index) const override {
-    FOOTHOLD_EXPECTS(index >= 0 && index < num_frames());
-    const TumFrame& source = frames_[static_cast<std::size_t>(index)];
-    RgbdFrame frame;
-    frame.calibration = calibration_;
-    frame.index = index;
-    frame.timestamp_s = source.images.depth.timestamp_s / (folder_.is_icl_nuim ? kIclFrameRate_hz : 1.0);
-    frame.world_from_camera = source.world_from_camera;
-    read_frame_images(folder_.path / source.images.colour.name, folder_.path / source.images.depth.name, kDepthUnitsPerM, options_, frame);
-    return frame;
-  }
-
- private:
-  TumFolder folder_;
-  std::vector<TumFrame> frames_;
-  SequenceOptions options_;
-  RgbdCalibration calibration_;
-};
+  if (any || truth.empty()) return;
+  throw_file_error(folder.ground_truth,
+                   "no pose at the time of any frame: it tells of " + time_text(truth.front().timestamp_s) + " to " +
+                       time_text(truth.back().timestamp_s) + ", the frames were taken from " + time_text(first_s) + " to " +
+                       time_text(last_s),
+                   "the ground truth of this recording, its times in seconds");
+}
 
 }  // namespace
 
 bool looks_like_tum(const fs::path& folder) {
-  return fs::exists(folder / "rgb.txt") || fs::exists(folder / "depth.txt") || fs::exists(folder / "associations.txt");
+  return fs::exists(depth_list(folder)) || fs::exists(colour_list(folder)) || fs::exists(folder / "associations.txt");
 }
 
-std::unique_ptr<Sequence> open_tum(const fs::path& folder, const Context& context, const SequenceOptions& options) {
-  const TumFolder inspected = inspect(folder);
-  std::vector<TumFrame> frames = read_frames(inspected, context, options);
-  return std::make_unique<TumSequence>(inspected, std::move(frames), options);
+FoundRecording read_tum(const fs::path& path, const Context& context) {
+  const TumFolder folder = inspect(path);
+  FoundRecording found;
+  found.folder = path;
+  found.layout = folder.is_icl_nuim ? "ICL-NUIM" : "TUM RGB-D";
+  for (const ImagePair& pair : read_pairs(path, context)) {
+    check_exists(path / pair.depth.name, "a list beside it");
+    check_exists(path / pair.colour.name, "a list beside it");
+    found.frames.push_back({{path / pair.depth.name}, {path / pair.colour.name}, pair.depth.timestamp_s, std::nullopt});
+  }
+  add_poses(folder, found.frames, context);
+  if (folder.is_icl_nuim) {  // counts frames instead of seconds, and has y upwards in world and camera
+    for (RecordedFrame& frame : found.frames) frame.timestamp_s /= kDefaultFrameRate_hz;
+    found.pose_convention.mirror_y = true;
+  }
+  const bool is_openloris = depth_list(path).filename() == "aligned_depth.txt";
+  found.depth_units_per_m = is_openloris ? kOpenLorisDepthUnitsPerM : kDepthUnitsPerM;
+  found.calibration.data_set = folder.is_icl_nuim ? kIclNuim : camera_by_name(recording_name(path));
+  found.calibration.data_set_name = folder.is_icl_nuim ? "ICL-NUIM's own" : "the TUM benchmark's, by the folder's name";
+  return found;
 }
 
 }  // namespace foothold::io

@@ -4,13 +4,12 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "foothold/base/context.h"
-#include "foothold/io/sequence.h"
+#include "found_recording.h"
 
 namespace foothold::io {
 
@@ -36,10 +35,17 @@ std::vector<ImagePair> parse_associations(std::string_view text, const std::file
 /// Pairs images so that no pair is further apart than `max_difference_s`; nearest pairs first, each image once. @return By depth time.
 std::vector<ImagePair> associate(const std::vector<StampedFile>& depth, const std::vector<StampedFile>& colour, double max_difference_s);
 
-/// True if a folder holds rgb.txt, depth.txt or associations.txt.
+/// The two images nearest in time. @pre Neither list is empty. @return Their places in the lists.
+std::pair<std::size_t, std::size_t> nearest_pair(const std::vector<StampedFile>& depth, const std::vector<StampedFile>& colour);
+
+/// A time to the microsecond, for messages.
+std::string time_text(double time_s);
+
+/// True if a folder holds a list of colour or depth images, or associations.txt.
 bool looks_like_tum(const std::filesystem::path& folder);
 
-/// Opens a TUM or ICL-NUIM folder. @throws FileError
-std::unique_ptr<Sequence> open_tum(const std::filesystem::path& folder, const Context& context, const SequenceOptions& options);
+/// Reads a TUM or ICL-NUIM folder, or one of Bonn's or OpenLORIS. Frames for which the ground truth is silent come without a pose.
+/// @throws FileError
+FoundRecording read_tum(const std::filesystem::path& folder, const Context& context);
 
 }  // namespace foothold::io

@@ -3,6 +3,7 @@
 /// Where frames come from: recordings with random access, and sources that deliver one frame after another.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 
 #include "foothold/api/frame.h"
@@ -18,6 +19,9 @@ class Sequence {
   virtual int num_frames() const = 0;
   /// Reads one frame. Thread-safe. @pre 0 <= index < num_frames() @throws FileError naming the file that is missing or damaged.
   virtual RgbdFrame load(int index) const = 0;
+  /// Where the origin of this sequence's poses lies in the frame that its files use [m]: zero, unless a recording lies so far from its own
+  /// origin that single precision would not do. Whoever writes poses down adds it.
+  virtual Eigen::Vector3d origin_m() const { return Eigen::Vector3d::Zero(); }
 
  protected:
   Sequence() = default;

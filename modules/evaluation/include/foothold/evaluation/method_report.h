@@ -39,6 +39,8 @@ struct CallReport {
 struct MethodReport {
   int num_tested = 0;
   int num_trained = 0;
+  int num_without_pose = 0;    ///< frames left out, for they have no true pose
+  int num_without_depth = 0;   ///< frames without depth: tested, they count as not found; none was learnt
   int num_answered = 0;        ///< tests that got an estimate, whatever its confidence
   std::vector<Recall> recall;  ///< recall_ladder(), counted on the best estimate whatever its confidence
   Interval recall_95;          ///< Wilson interval of the recall within kFoundThreshold; frames are correlated, so it is too narrow

@@ -50,6 +50,8 @@ struct CallTimes {
 struct RunLog {
   std::vector<TestRecord> tests;  ///< in the order of the attempts
   std::vector<SE3> trained_world_from_camera;
+  int num_without_pose = 0;   ///< frames left out, for they have no true pose
+  int num_without_depth = 0;  ///< frames without valid depth, not found and not learnt
   CallTimes train;
   CallTimes relocalise;
   CallTimes update;

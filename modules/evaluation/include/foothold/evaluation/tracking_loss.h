@@ -14,8 +14,9 @@ namespace foothold {
 /// The gap counts the frames that the input plays; N frames are held in memory.
 ///
 /// @param relocaliser  Freshly made or reset.
-/// @throws FileError  naming the frame if one has no true pose, no valid depth or is malformed, or if the input has fewer than gap + 2
-/// frames. Reference: [Cavallari2017] Sec. 4.2.
+/// Frames without a true pose are left out, frames without depth are not found and teach nothing; the log counts both.
+/// @throws FileError  naming the frame if one is malformed, or if the input has fewer than gap + 2 frames with a true pose. Reference:
+/// [Cavallari2017] Sec. 4.2.
 RunLog run_tracking_loss(Relocaliser& relocaliser, const EvaluationInput& input, int gap, const ProtocolOptions& options = {});
 
 }  // namespace foothold

@@ -11,7 +11,8 @@ namespace foothold {
 /// relocalises every frame of the test inputs without learning from them. All inputs share one world.
 ///
 /// @param relocaliser  Freshly made or reset.
-/// @throws FileError  naming the frame if one has no true pose, no valid depth or is malformed; or the input, if it has no frames.
+/// Frames without a true pose are left out, frames without depth are not found and teach nothing; the log counts both.
+/// @throws FileError  naming the frame if one is malformed; or the input, if it has no frames with a true pose.
 /// Reference: [Cavallari2017] Sec. 4.1.
 RunLog run_train_test(Relocaliser& relocaliser, const std::vector<EvaluationInput>& training, const std::vector<EvaluationInput>& tests,
                       int num_settling_updates, const ProtocolOptions& options = {});

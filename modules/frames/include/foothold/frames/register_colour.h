@@ -12,7 +12,8 @@ bool is_registered(const RgbdCalibration& calibration);
 /// True if, besides, they have the same size.
 bool is_registered(const Frame& frame);
 
-/// Warps a frame's colour into its depth camera's view.
+/// Warps a frame's colour into its depth camera's view, and says so in its calibration; does nothing where they share one already. The two
+/// images may have different sizes; afterwards colour has that of depth.
 ///
 /// Each depth pixel takes the bilinear colour of the surface point it sees; pixels without depth assume the frame's median depth (or
 /// nearly); points outside the colour image take its border, points behind the colour camera black. What the colour camera cannot see

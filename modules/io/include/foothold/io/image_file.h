@@ -10,8 +10,8 @@
 
 namespace foothold {
 
-/// Reads a PNG or JPEG image as colour; grey images become grey colours.
-/// @throws FileError if the file is missing, not an image, cut short or damaged.
+/// Reads a PNG or JPEG image of 8 bits a channel as colour; grey images become grey colours.
+/// @throws FileError if the file is missing, not an image, cut short or damaged, of more bits, or of more than 32 Mi pixels.
 Image<Rgb8> read_rgb_image(const std::string& path);
 
 /// Reads a PNG image of one 16-bit channel, as depth is stored. @throws FileError as read_rgb_image(), and for any other kind of pixel.

@@ -16,10 +16,18 @@ namespace foothold {
 /// How a recording is read.
 struct SequenceOptions {
   /// Warps colour into the depth camera's view where the two are not registered, as register_colour() does; the calibration then says so.
-  /// Relocalisers want it so. False for the images as they were recorded.
+  /// Relocalisers want it so. False for the images as they were recorded; those of different size are registered all the same.
   bool register_colour = true;
-  /// Leaves out the frames of a TUM recording for which the ground truth is silent, and logs how many. Otherwise they come without a pose.
-  bool only_with_pose = true;
+  /// The depth camera, instead of what the recording's files say: "fx,fy,cx,cy", with 4, 5 or 8 coefficients of distortion behind if
+  /// wanted, or the name of a file that holds them.
+  std::string intrinsics;
+  /// What depth images count, such as 1000 for millimetres, instead of what the recording's layout says; 0 for the latter.
+  double depth_units_per_m = 0.0;
+  /// How poses are to be understood, instead of what the recording's layout says: words separated by commas, such as "inverse,opengl".
+  /// docs/sequences.md lists them. Empty for the latter.
+  std::string pose_convention;
+  /// Looks at a few frames whether unit of depth, intrinsics and poses can be right, and logs a warning if not.
+  bool check = true;
 };
 
 /// A half-open range of frames.
@@ -35,11 +43,11 @@ FrameRange parse_frame_range(const std::string& text);
 /// Opens a recording.
 ///
 /// @param spec  One of
-///   - a 7-Scenes sequence folder (frame-000000.color.png or .jpg, .depth.png, .pose.txt; see docs/sequences.md for its calibration files),
-///   - a TUM RGB-D folder (rgb.txt, depth.txt, groundtruth.txt) or an ICL-NUIM folder (associations.txt, *.gt.freiburg),
+///   - the folder of a recording in one of the layouts that docs/sequences.md lists: 7-Scenes, TUM RGB-D, ICL-NUIM, ...,
 ///   - "synthetic:NAME?key=value&..." for a rendered room,
 ///   each followed, if wanted, by "@A:B" for a part of it. Frames of a part keep their index in the whole.
-/// @param context  Receives warnings in its log.
+/// @param context  Its log is told which intrinsics and unit of depth are used and where they come from, and warned of what looks wrong.
+/// @return Frames for which the files have no pose, or one that is not finite, come without one.
 /// @throws FileError naming the file that is missing, damaged or surplus; InvalidSettings for a range outside the recording.
 std::shared_ptr<Sequence> open_sequence(const std::string& spec, const Context& context, const SequenceOptions& options = {});
 

@@ -21,7 +21,9 @@ struct StampedPose {
 /// @throws FileError naming the line for anything but 8 finite numbers, or a quaternion whose length is not 1 to within 1e-2.
 std::vector<StampedPose> read_trajectory(const std::string& path);
 
-/// Writes a trajectory that read_trajectory() reads back to single precision. Replaces the file only when complete. @throws FileError
-void write_trajectory(const std::string& path, const std::vector<StampedPose>& trajectory);
+/// Writes a trajectory that read_trajectory() reads back to single precision. Replaces the file only when complete.
+/// @param origin_m  Added to every position: Sequence::origin_m() of the recording that was followed. @throws FileError
+void write_trajectory(const std::string& path, const std::vector<StampedPose>& trajectory,
+                      const Eigen::Vector3d& origin_m = Eigen::Vector3d::Zero());
 
 }  // namespace foothold

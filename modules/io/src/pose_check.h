@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Projects frames into one another to see whether their poses fit their depth.
+#pragma once
+
+#include <vector>
+
+#include "foothold/base/camera.h"
+#include "foothold/base/image.h"
+#include "recorded_pose.h"
+
+namespace foothold::io {
+
+/// Two frames that see some of the same, with their poses in Foothold's convention as the recording is read.
+struct FramePair {
+  Image<float> depth_a;
+  Image<float> depth_b;
+  RecordedPose world_from_a;
+  RecordedPose world_from_b;
+};
+
+/// What else might be meant by poses or depth.
+struct Reading {
+  PoseConvention convention;  ///< on top of the one the recording is read in
+  double depth_factor = 1.0;  ///< what depths would have to be multiplied by
+};
+
+/// How well a reading fits.
+struct Agreement {
+  double fraction =
+      0.0;             ///< of the points of one frame of each pair, those that the other sees where the poses say it should, at their depth
+  double score = 0.0;  ///< the same, but the more a point counts the better its depth fits: tells near misses apart
+};
+
+/// Projects the first frame of each pair into the second.
+Agreement pose_agreement(const std::vector<FramePair>& pairs, const Intrinsics& camera, const Reading& reading);
+
+/// Readings that people's files turn out to need, likelier ones first.
+const std::vector<Reading>& other_readings();
+
+}  // namespace foothold::io

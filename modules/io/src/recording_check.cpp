@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "foothold/io/recording_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "foothold/base/error.h"
+#include "image_header.h"
+#include "pose_check.h"
+#include "text_file.h"
+
+namespace foothold {
+namespace {
+
+using io::FramePair;
+
+constexpr int kNumAnchors = 6;
+/// Two frames of a pair are as far apart as this, or as many frames.
+constexpr float kPairMotion_m = 0.1F;
+constexpr float kPairMotion_rad = 0.09F;
+constexpr int kMinPairFrames = 3;
+constexpr int kMaxPairFrames = 30;
+/// Right poses of real recordings agree for most of the points: other readings are not even tried.
+constexpr double kGoodAgreement = 0.9;
+/// Another reading fits far better if it leaves less than this part of the disagreement, and fits better by this much.
+constexpr double kByFar = 0.5;
+constexpr double kLeastGain = 0.1;
+/// Poses of which no reading fits are worth a word below this.
+constexpr double kHopelessAgreement = 0.25;
+/// Recordings with less depth than this are hardly worth the name.
+constexpr double kLeastValidFraction = 0.05;
+
+std::string percent(double fraction) { return std::to_string(std::lround(100.0 * fraction)) + " %"; }
+
+std::string metres(double distance_m) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3g m", distance_m);
+  return text.data();
+}
+
+/// The depth of a frame; empty if it cannot be read.
+Image<float> try_depth(const Recording& recording, int index) {
+  try {
+    return recording.load_depth(index);
+  } catch (const FileError&) {
+    return {};
+  }
+}
+
+/// Collects depths of every fourth pixel in both directions.
+class DepthStatistics {
+ public:
+  void add(const Image<float>& depth) {
+    constexpr int kStep = 4;
+    if (depth.empty()) return;
+    ++num_frames_;
+    for (int v = 0; v < depth.height(); v += kStep) {
+      for (int u = 0; u < depth.width(); u += kStep) {
+        ++num_pixels_;
+        if (is_valid_depth(depth(u, v))) depths_m_.push_back(depth(u, v));
+      }
+    }
+  }
+
+  void finish(RecordingCheck& check) {
+    check.num_depth_frames = num_frames_;
+    if (num_pixels_ == 0 || depths_m_.empty()) return;
+    const auto count = static_cast<double>(depths_m_.size());
+    check.valid_fraction = count / static_cast<double>(num_pixels_);
+    const auto within = std::count_if(depths_m_.begin(), depths_m_.end(), [](float z) {
+      return z >= static_cast<float>(kLeastMedianDepth_m) && z <= static_cast<float>(kMostMedianDepth_m);
+    });
+    check.within_fraction = static_cast<double>(within) / count;
+    const auto middle = depths_m_.begin() + static_cast<std::ptrdiff_t>(depths_m_.size() / 2);
+    std::nth_element(depths_m_.begin(), middle, depths_m_.end());
+    check.median_depth_m = static_cast<double>(*middle);
+  }
+
+ private:
+  int num_frames_ = 0;
+  std::size_t num_pixels_ = 0;
+  std::vector<float> depths_m_;
+};
+
+io::RecordedPose in_own_frame(const SE3& pose, const Eigen::Vector3d& origin_m) {
+  return {pose.rotation.cast<double>(), pose.translation.cast<double>() + origin_m};
+}
+
+/// A frame some motion after another; -1 if no later one has a pose.
+int partner_of(int anchor, const std::vector<std::optional<SE3>>& poses) {
+  int partner = -1;
+  const int end = std::min(static_cast<int>(poses.size()), anchor + kMaxPairFrames + 1);
+  for (int i = anchor + 1; i < end; ++i) {
+    const auto& pose = poses[static_cast<std::size_t>(i)];
+    if (!pose.has_value()) continue;
+    partner = i;
+    const SE3& first = *poses[static_cast<std::size_t>(anchor)];
+    const bool moved = translation_distance_m(first, *pose) > kPairMotion_m || rotation_distance_rad(first, *pose) > kPairMotion_rad;
+    if (moved && i >= anchor + kMinPairFrames) break;
+  }
+  return partner;
+}
+
+/// Frames with a pose and their partners, spread over the recording.
+std::vector<FramePair> collect_pairs(const Recording& recording, DepthStatistics& statistics) {
+  const auto& poses = recording.facts().world_from_camera;
+  std::vector<FramePair> pairs;
+  for (int i = 0; i < kNumAnchors; ++i) {
+    const int anchor = static_cast<int>(static_cast<std::size_t>(i) * poses.size() / kNumAnchors);
+    const bool has_pose = poses[static_cast<std::size_t>(anchor)].has_value();
+    const int partner = has_pose ? partner_of(anchor, poses) : -1;
+    FramePair pair;
+    pair.depth_a = try_depth(recording, anchor);
+    statistics.add(pair.depth_a);
+    if (partner < 0) continue;
+    pair.depth_b = try_depth(recording, partner);
+    statistics.add(pair.depth_b);
+    if (pair.depth_a.empty() || pair.depth_b.empty()) continue;
+    pair.world_from_a = in_own_frame(*poses[static_cast<std::size_t>(anchor)], recording.origin_m());
+    pair.world_from_b = in_own_frame(*poses[static_cast<std::size_t>(partner)], recording.origin_m());
+    pairs.push_back(std::move(pair));
+  }
+  return pairs;
+}
+
+void check_poses(const std::vector<FramePair>& pairs, const RecordingFacts& facts, RecordingCheck& check) {
+  constexpr double kTie = 0.002;  // the likelier reading wins
+  check.num_pose_pairs = static_cast<int>(pairs.size());
+  if (pairs.empty()) return;
+  const Intrinsics& camera = facts.calibration.depth;
+  const io::Agreement as_read = io::pose_agreement(pairs, camera, {});
+  check.pose_agreement = as_read.fraction;
+  if (as_read.fraction >= kGoodAgreement) return;
+  const io::Reading* best = nullptr;
+  io::Agreement best_agreement;
+  for (const io::Reading& reading : io::other_readings()) {
+    const io::Agreement agreement = io::pose_agreement(pairs, camera, reading);
+    if (agreement.score <= best_agreement.score + kTie) continue;
+    best_agreement = agreement;
+    best = &reading;
+  }
+  const bool by_far = best != nullptr && 1.0 - best_agreement.fraction < kByFar * (1.0 - as_read.fraction) &&
+                      best_agreement.score > as_read.score + kLeastGain;
+  if (!by_far) return;
+  check.better_agreement = best_agreement.fraction;
+  if (best->depth_factor != 1.0) check.better_depth_units_per_m = facts.depth_units_per_m / best->depth_factor;
+  if (best->convention != io::PoseConvention{}) check.better_convention = to_string(best->convention);
+}
+
+std::string depth_text(const RecordingFacts& facts, const RecordingCheck& check) {
+  return "median depth " + metres(check.median_depth_m) + ", " + percent(check.within_fraction) + " of it between " +
+         metres(kLeastMedianDepth_m) + " and " + metres(kMostMedianDepth_m) + ", if it counts 1/" +
+         io::numbers_text(&facts.depth_units_per_m, 1) + " m (" + facts.depth_unit_source + ")";
+}
+
+/// A unit that people use, under which the median would be that of a room; 0 if there is none.
+double plausible_unit(const RecordingFacts& facts, double median_depth_m) {
+  constexpr double kTypical_m = 2.0;
+  double best = 0.0;
+  double best_ratio = 2.5;  // of the median to that of a typical room, or inverse
+  for (const double units_per_m : {1000.0, 5000.0, 1.0, 100.0, 10000.0, 256.0, 6553.5}) {
+    const double median_m = median_depth_m * facts.depth_units_per_m / units_per_m;
+    const double ratio = std::max(median_m / kTypical_m, kTypical_m / median_m);
+    if (ratio >= best_ratio) continue;
+    best = units_per_m;
+    best_ratio = ratio;
+  }
+  return best;
+}
+
+std::string try_unit(double units_per_m, double median_m) {
+  return "; with --depth-scale " + io::numbers_text(&units_per_m, 1) + " it would be " + metres(median_m);
+}
+
+bool is_unlikely(const RecordingCheck& check) {
+  return check.median_depth_m < kLeastMedianDepth_m || check.median_depth_m > kMostMedianDepth_m;
+}
+
+void warn_of_depth(const RecordingFacts& facts, RecordingCheck& check) {
+  const std::string subject = facts.folder + ": ";
+  if (check.num_depth_frames > 0 && check.valid_fraction < kLeastValidFraction) {
+    check.warnings.push_back(subject + "only " + percent(check.valid_fraction) + " of the pixels of the " +
+                             std::to_string(check.num_depth_frames) + " frames looked at have depth");
+  }
+  if (check.valid_fraction == 0.0) return;
+  const bool unlikely = is_unlikely(check);
+  double unit = check.better_depth_units_per_m;
+  if (unit == 0.0 && unlikely) unit = plausible_unit(facts, check.median_depth_m);
+  if (!unlikely && unit == 0.0) return;
+  std::string text = subject + "the unit of depth looks wrong: " + depth_text(facts, check);
+  if (unit != 0.0) text += try_unit(unit, check.median_depth_m * facts.depth_units_per_m / unit);
+  if (check.better_depth_units_per_m != 0.0) {
+    text += ", and " + percent(check.better_agreement) + " instead of " + percent(check.pose_agreement) +
+            " of the depth would agree between frames, by their poses";
+  }
+  check.warnings.push_back(text);
+}
+
+void warn_of_poses(const RecordingFacts& facts, RecordingCheck& check) {
+  if (check.num_pose_pairs == 0 || is_unlikely(check) || check.better_depth_units_per_m != 0.0) return;
+  const std::string subject =
+      facts.folder + ": only " + percent(check.pose_agreement) + " of the depth agrees between frames, by their poses";
+  if (!check.better_convention.empty() && facts.pose_convention == "as-is") {
+    check.warnings.push_back(subject + "; " + percent(check.better_agreement) + " would with --pose-convention " + check.better_convention);
+  } else if (check.pose_agreement < kHopelessAgreement) {
+    check.warnings.push_back(subject + " (read as " + facts.pose_convention +
+                             "); convention of poses, intrinsics or unit of depth may be wrong");
+  }
+}
+
+}  // namespace
+
+RecordingCheck check_recording(const Recording& recording) {
+  RecordingCheck check;
+  DepthStatistics statistics;
+  const std::vector<FramePair> pairs = collect_pairs(recording, statistics);
+  statistics.finish(check);
+  check_poses(pairs, recording.facts(), check);
+  warn_of_depth(recording.facts(), check);
+  warn_of_poses(recording.facts(), check);
+  return check;
+}
+
+}  // namespace foothold
