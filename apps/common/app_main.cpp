@@ -27,6 +27,19 @@ void on_interrupt(int signal) {
   std::signal(signal, SIG_DFL);  // the second Ctrl-C means it
 }
 
+/// Sets the device that --device names.
+void set_device(const std::string& text, ContextOptions& options) {
+  options.device = text == "cpu" ? Device::kCpu : Device::kCuda;
+  if (text == "cpu" || text == "cuda") return;
+  constexpr std::size_t kPrefix = 5;
+  constexpr std::size_t kMaxDigits = 3;
+  if (text.rfind("cuda:", 0) != 0 || text.size() == kPrefix || text.size() > kPrefix + kMaxDigits ||
+      text.find_first_not_of("0123456789", kPrefix) != std::string::npos) {
+    throw InvalidSettings("--device: got '" + text + "', expected cpu, cuda or cuda:N");
+  }
+  options.cuda_device = std::stoi(text.substr(kPrefix));
+}
+
 /// Writes what stdout still holds. @return False, having said so, if it or anything before could not be written.
 bool finish_stdout() {
   errno = 0;
@@ -104,7 +117,7 @@ void add_device_options(CommandLine& app, DeviceOptions& options) {
 
 Context make_context(const DeviceOptions& options, Trace* trace) {
   ContextOptions result;
-  result.device = options.device == "cuda" ? Device::kCuda : Device::kCpu;
+  set_device(options.device, result);
   result.num_threads = options.num_threads;
   result.log = log_to_stderr();
   result.trace = trace;

@@ -37,7 +37,7 @@ struct DeviceOptions {
   int num_threads = 0;
 };
 
-/// Adds --device cpu|cuda and --threads N. The options must live as long as the app.
+/// Adds --device cpu|cuda|cuda:N and --threads N. The options must live as long as the app.
 void add_device_options(CommandLine& app, DeviceOptions& options);
 
 /// The context that the options ask for, logging to stderr. @throws InvalidSettings, DeviceError

@@ -55,7 +55,7 @@ class ReconstructionMonitor {
 
   ModelDetail detail_;
   std::shared_ptr<Raycaster> raycaster_;  // holds nothing but buffers, so copies share it
-  MemoryKind memory_;
+  Memory memory_;
   MapFromAbove map_;
   std::map<std::string, double> smoothed_ms_;
   double smoothed_total_ms_ = 0.0;

@@ -93,7 +93,7 @@ int main(int argc, char** argv) {
   app.add_option("--out", options.out, "Folder to write, which must not hold frames already; with --raw, a file")
       .required()
       .type_name("DIR");
-  app.add_flag("--raw", options.raw, "Write one file without compression instead, which needs no image library: for scripts/bench_gpu.sh");
+  app.add_flag("--raw", options.raw, "Write one file without compression instead, for machines without an image library");
   app.add_option("--stride", options.stride, "Use every Nth frame").range(1, 1000000).show_default();
   add_recording_options(app, options.recording);
   app.add_option("--threads", options.num_threads, "Host threads; 0 for as many as the machine has").range(0, 1024).show_default();

@@ -11,9 +11,10 @@ namespace foothold::test {
 /// True in the program that emulates the device.
 bool device_is_emulated();
 
-inline Context context_on(Device device, int num_threads = 1) {
+inline Context context_on(Device device, int num_threads = 1, int cuda_device = 0) {
   ContextOptions options;
   options.device = device;
+  options.cuda_device = cuda_device;
   options.num_threads = num_threads;
   return Context(options);
 }

@@ -63,6 +63,31 @@ TEST_CASE("emulated CUDA: kernels run no sooner than the host waits") {
   REQUIRE(runs == 2);
 }
 
+TEST_CASE("emulated CUDA: a kernel that touches another device's memory dies") {
+  const Context first = test::context_on(Device::kCuda);
+  const Context second = test::context_on(Device::kCuda, 1, 1);
+  Array<int> array(second.memory(), 64);
+  int* const data = array.data();
+  const auto touch_on = [data](const Context& context) {
+    CudaExecutor(context).for_each(64, [data](std::size_t i) { data[i] = 1; });
+    context.synchronise();
+  };
+  REQUIRE(is_deadly([&] { touch_on(first); }));
+  REQUIRE_FALSE(is_deadly([&] { touch_on(second); }));
+}
+
+TEST_CASE("emulated CUDA: streams that do not wait for each other find what was there before") {
+  const Context writer = test::context_on(Device::kCuda);
+  const Context reader = test::context_on(Device::kCuda);
+  Array<int> array(writer.memory(), 1);
+  array.clear_to_zero();
+  const int value = 7;
+  array.assign(writer, Span<const int>(&value, 1));
+  REQUIRE(array.read(reader, 0) == 0);
+  reader.wait_for(writer);
+  REQUIRE(array.read(reader, 0) == 7);
+}
+
 TEST_CASE("emulated CUDA: lanes of one team that come to different barriers die") {
   const Context context = test::context_on(Device::kCuda);
   REQUIRE(is_deadly([&] {

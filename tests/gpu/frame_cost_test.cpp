@@ -9,6 +9,7 @@
 #include "fusion/scene.h"
 #include "gpu/device.h"
 #include "relocalisation/scenes.h"
+#include "reservoirs/block_lists.h"
 #include "support/catch.h"
 #include "support/emulated_cuda/emulated_cuda.h"
 #include "support/random_seed.h"
@@ -75,6 +76,29 @@ TEST_CASE(
   REQUIRE(device.counts().num_device_waits == 0);
   INFO("relocalising: " << device.counts().num_launches << " launches");
   REQUIRE(device.counts().num_launches <= kLaunchesOfRelocalisation + num_screened * kLaunchesOfScreening + num_rolls * kLaunchesOfRoll);
+}
+
+TEST_CASE("frame cost: asking for the size of the scene waits for the stream alone") {
+  const Context context = test::context_on(Device::kCuda);
+  const ForestRelocaliser relocaliser(context, test::small_forest(), few_leaves(1));
+  EmulatedCuda& device = EmulatedCuda::instance();
+  device.reset_counts();
+  REQUIRE(relocaliser.state_bytes() > 0);
+  REQUIRE(device.counts().num_waits == 2);  // for reservoirs and for modes
+  REQUIRE(device.counts().num_device_waits == 0);
+}
+
+TEST_CASE("BlockLists: on CUDA the pool is reserved once, and kept when the lists are cleared") {
+  const Context context = test::context_on(Device::kCuda);
+  EmulatedCuda& device = EmulatedCuda::instance();
+  device.reset_counts();
+  BlockLists<int, 4> lists(context.memory(), 10, 100);
+  REQUIRE(device.counts().num_allocations == 3);  // pool, table, counter
+  const int* const pool = lists.view().pool;
+  lists.clear();
+  REQUIRE(device.counts().num_allocations == 3);
+  REQUIRE(device.counts().num_frees == 0);
+  REQUIRE(lists.view().pool == pool);
 }
 
 /// A pipeline for images of a quarter of a camera's size, with a map that the emulated device has the patience for.

@@ -212,14 +212,15 @@ TEST_CASE("CUDA: candidates refined in one batch end where the CPU's end, with i
   }
 }
 
-TEST_CASE("CUDA: the pipeline tracks, grades and fuses as the CPU's does") {
+TEST_CASE("CUDA: the pipeline tracks, grades and fuses as the CPU's does, on whatever device") {
+  const int cuda_device = cuda_available(nullptr, 1) ? GENERATE(0, 1) : 0;
   FusionSettings settings;
   settings.volume = coarse();
   settings.render_divisor = 1;
   std::vector<std::vector<FusionFrameResult>> results(2);
   std::vector<int> num_blocks;
   for (const Device device : {Device::kCpu, Device::kCuda}) {
-    const Context context = test::context_on(device);
+    const Context context = test::context_on(device, 1, device == Device::kCuda ? cuda_device : 0);
     FrameUploader uploader(context);
     FusionPipeline pipeline(context, settings, nullptr);
     pipeline.start_at(test::pose_on_arc(0.3F));

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "features/leaf_lookup.h"
+#include "foothold/base/error.h"
 #include "foothold/base/random.h"
 #include "foothold/frames/frame_uploader.h"
 #include "foothold/relocalisation/forest_relocaliser.h"
@@ -23,8 +24,8 @@ constexpr float kConfidenceTolerance = 0.02F;
 
 /// A relocaliser on a device, fed from the host.
 struct Rig {
-  explicit Rig(Device device, const ForestRelocaliserSettings& settings)
-      : context(test::context_on(device)), uploader(context), relocaliser(context, test::small_forest(), settings) {}
+  explicit Rig(Device device, const ForestRelocaliserSettings& settings, int cuda_device = 0)
+      : context(test::context_on(device, 1, cuda_device)), uploader(context), relocaliser(context, test::small_forest(), settings) {}
 
   void train(std::size_t i) { relocaliser.train(uploader.upload(test::office()[i].view()), *test::office()[i].world_from_camera); }
   std::vector<PoseEstimate> relocalise(std::size_t i) { return relocaliser.relocalise(uploader.upload(test::office()[i].view())); }
@@ -115,6 +116,32 @@ TEST_CASE("CUDA: poses are the CPU's to a millimetre and a milliradian") {
     REQUIRE(translation_distance_m(actual[0].world_from_camera, *test::office()[i].world_from_camera) < 0.05F);
   }
   REQUIRE(num_found == 4);
+}
+
+TEST_CASE("CUDA: another device than the first learns and finds the same") {
+  if (!cuda_available(nullptr, 1)) return;  // a machine with one device
+  Rig first(Device::kCuda, quick_settings());
+  Rig second(Device::kCuda, quick_settings(), 1);
+  for (Rig* rig : {&first, &second}) {
+    for (std::size_t i = 0; i < 16; i += 4) rig->train(i);
+    rig->relocaliser.update();
+  }
+  REQUIRE((test::saved(first.relocaliser) == test::saved(second.relocaliser)));
+  const ForestRelocaliser copy = second.relocaliser;
+  REQUIRE((test::saved(copy) == test::saved(second.relocaliser)));
+  const std::vector<PoseEstimate> expected = first.relocalise(1);
+  const std::vector<PoseEstimate> actual = second.relocalise(1);
+  REQUIRE_FALSE(expected.empty());
+  REQUIRE(actual.size() == expected.size());
+  REQUIRE(translation_distance_m(actual[0].world_from_camera, expected[0].world_from_camera) < kPoseTolerance_m);
+}
+
+TEST_CASE("CUDA: a frame in the memory of another device is refused") {
+  if (!cuda_available(nullptr, 1)) return;  // a machine with one device
+  Rig first(Device::kCuda, quick_settings());
+  Rig second(Device::kCuda, quick_settings(), 1);
+  const Frame elsewhere = second.uploader.upload(test::office()[0].view());
+  REQUIRE_THROWS_AS(first.relocaliser.relocalise(elsewhere), ContractViolation);
 }
 
 TEST_CASE("CUDA: the paper's settings give the CPU's poses") {

@@ -165,8 +165,9 @@ TEST_CASE("LeafReservoirs: the same whatever the number of threads") {
     all.emplace_back(context, kLeaves, small_reservoirs(50), 42);
     for (std::uint32_t frame = 0; frame < 6; ++frame) all.back().insert(context, random_examples(random, 5000 * frame, 5000, 5, kLeaves));
   }
-  REQUIRE(all[0].state_bytes() == all[1].state_bytes());
-  REQUIRE(all[0].state_bytes() == all[2].state_bytes());
+  const Context context = context_of(1);
+  REQUIRE(all[0].state_bytes(context) == all[1].state_bytes(context));
+  REQUIRE(all[0].state_bytes(context) == all[2].state_bytes(context));
   require_same(all[0], all[1]);
   require_same(all[0], all[2]);
 }
@@ -210,12 +211,12 @@ TEST_CASE("LeafReservoirs: clear forgets everything") {
   Random random = test::test_random();
   const Context context = context_of(1);
   LeafReservoirs reservoirs(context, 100, small_reservoirs(32), 42);
-  const std::size_t empty = reservoirs.state_bytes();
+  const std::size_t empty = reservoirs.state_bytes(context);
   LeafReservoirs fresh(context, 100, small_reservoirs(32), 42);
   reservoirs.insert(context, random_examples(random, 0, 1000, 5, 100));
-  REQUIRE(reservoirs.state_bytes() > empty);
+  REQUIRE(reservoirs.state_bytes(context) > empty);
   reservoirs.clear();
-  REQUIRE(reservoirs.state_bytes() == empty);
+  REQUIRE(reservoirs.state_bytes(context) == empty);
   require_same(reservoirs, fresh);
 }
 

@@ -29,10 +29,14 @@ Context::Context(const ContextOptions& options) {
   state_->options = options;
   if (options.num_threads == 0) state_->options.num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   state_->arena.initialize(state_->options.num_threads);
-  if (options.device == Device::kCuda) state_->cuda = detail::make_cuda_stream(options.cuda_stream);
+  if (options.device != Device::kCuda) return;
+  detail::expect_usable_cuda_device(options.cuda_device);
+  state_->cuda = detail::make_cuda_stream(options.cuda_device, options.cuda_stream);
 }
 
 Device Context::device() const { return state_->options.device; }
+Memory Context::memory() const { return state_->cuda ? Memory(MemoryKind::kCuda, state_->options.cuda_device) : Memory(); }
+std::string Context::device_name() const { return state_->cuda ? detail::cuda_device_name(state_->options.cuda_device) : "CPU"; }
 int Context::num_threads() const { return state_->options.num_threads; }
 Trace* Context::trace() const { return state_->options.trace; }
 void* Context::stream() const { return state_->cuda ? state_->cuda->stream() : nullptr; }
@@ -44,6 +48,14 @@ void Context::log(LogLevel level, const std::string& message) const {
 
 void Context::synchronise() const {
   if (state_->cuda) state_->cuda->synchronise();
+}
+
+void Context::wait_for(const Context& other) const {
+  if (other.state_->cuda && state_->cuda) {
+    state_->cuda->wait_for(*other.state_->cuda);
+  } else {
+    other.synchronise();
+  }
 }
 
 void* detail::cuda_scratch(const Context& context, std::size_t num_bytes) { return context.state_->cuda->scratch(num_bytes); }
@@ -69,13 +81,29 @@ void detail::write_memory(const Context& context, void* device, const void* host
   }
 }
 
-bool cuda_available(std::string* reason) { return detail::cuda_backend_available(reason); }
+bool cuda_available(std::string* reason, int cuda_device) {
+  try {
+    detail::expect_usable_cuda_device(cuda_device);
+    return true;
+  } catch (const std::exception& error) {
+    if (reason != nullptr) *reason = error.what();
+    return false;
+  }
+}
+
+ScopedStage::ScopedStage(const Context& context, const char* name) : context_(context), name_(name) {
+  if (context.trace() != nullptr && context.state_->cuda) context.state_->cuda->begin_stage(name);
+}
 
 ScopedStage::~ScopedStage() {
-  if (context_.trace() == nullptr) return;
+  Trace* const trace = context_.trace();
+  if (trace == nullptr) return;
   try {
-    context_.synchronise();
-    context_.trace()->add(name_, watch_.elapsed_ms());
+    if (context_.state_->cuda) {
+      context_.state_->cuda->end_stage(*trace);
+    } else {
+      trace->add(name_, watch_.elapsed_ms());
+    }
   } catch (...) {  // A failing device is reported by the next call that may throw.
   }
 }

@@ -10,14 +10,12 @@ constexpr const char* kReason =
     "this build of Foothold has no CUDA; configure it with FOOTHOLD_CUDA=ON on a machine with nvcc, or compute on the cpu";
 }  // namespace
 
-std::unique_ptr<CudaStream> make_cuda_stream(const std::optional<void*>&) { throw DeviceError(kReason); }
-bool cuda_backend_available(std::string* reason) {
-  if (reason != nullptr) *reason = kReason;
-  return false;
-}
-void* cuda_allocate(std::size_t) { throw DeviceError(kReason); }
-void cuda_free(void*) noexcept {}
-void cuda_copy(void*, const void*, std::size_t) { throw DeviceError(kReason); }
-void cuda_clear(void*, std::size_t) { throw DeviceError(kReason); }
+std::unique_ptr<CudaStream> make_cuda_stream(int, const std::optional<void*>&) { throw DeviceError(kReason); }
+void expect_usable_cuda_device(int) { throw DeviceError(kReason); }
+std::string cuda_device_name(int) { throw DeviceError(kReason); }
+void* cuda_allocate(int, std::size_t) { throw DeviceError(kReason); }
+void cuda_free(int, void*) noexcept {}
+void cuda_copy(const Memory&, void*, const Memory&, const void*, std::size_t) { throw DeviceError(kReason); }
+void cuda_clear(int, void*, std::size_t) { throw DeviceError(kReason); }
 
 }  // namespace foothold::detail

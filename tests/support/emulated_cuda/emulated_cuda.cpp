@@ -38,7 +38,7 @@ EmulatedCuda& EmulatedCuda::instance() {
   return device;
 }
 
-void* EmulatedCuda::allocate(std::size_t num_bytes) {
+void* EmulatedCuda::allocate(int device, std::size_t num_bytes) {
   ++counts_.num_allocations;
   const std::size_t num_used = round_up(num_bytes, kAlignment);
   const std::size_t num_pages_bytes = round_up(num_used, page_size());
@@ -48,45 +48,66 @@ void* EmulatedCuda::allocate(std::size_t num_bytes) {
   ::mprotect(begin, num_pages_bytes, PROT_READ | PROT_WRITE);
   std::memset(begin, kGarbage, num_pages_bytes);
   ::mprotect(begin, num_pages_bytes, PROT_NONE);
-  allocations_.push_back({begin, num_pages_bytes, begin + (num_pages_bytes - num_used)});
+  allocations_.push_back({device, begin, num_pages_bytes, begin + (num_pages_bytes - num_used)});
   return allocations_.back().pointer;
 }
 
 void EmulatedCuda::free(void* pointer) noexcept {
-  wait();
   ++counts_.num_frees;
-  const auto found =
-      std::find_if(allocations_.begin(), allocations_.end(), [&](const Allocation& allocation) { return allocation.pointer == pointer; });
+  const auto is_it = [&](const Allocation& allocation) { return allocation.pointer == pointer; };
+  const auto found = std::find_if(allocations_.begin(), allocations_.end(), is_it);
   if (found == allocations_.end()) fail("freed what was not allocated", "free");
+  wait_device(found->device);
   ::munmap(found->begin, found->num_bytes + page_size());
   allocations_.erase(found);
 }
 
-void EmulatedCuda::launch(std::function<void()> kernel) {
+std::shared_ptr<EmulatedStream> EmulatedCuda::stream(int device, const void* name) {
+  std::shared_ptr<EmulatedStream>& stream = streams_[{device, name}];
+  if (stream == nullptr) stream = std::make_shared<EmulatedStream>(EmulatedStream{device, {}, 0});
+  return stream;
+}
+
+void EmulatedCuda::launch(EmulatedStream& stream, std::function<void()> kernel) {
   ++counts_.num_launches;
-  queue_.push_back(std::move(kernel));
+  stream.queue.push_back(std::move(kernel));
 }
 
-void EmulatedCuda::wait() {
-  if (queue_.empty()) return;
-  run_now([] {});
+void EmulatedCuda::wait_for(EmulatedStream& stream, const std::shared_ptr<EmulatedStream>& other) {
+  const long num_done = other->num_done + static_cast<long>(other->queue.size());
+  stream.queue.emplace_back([this, other, num_done] { run(*other, num_done); });
 }
 
-void EmulatedCuda::run_now(const std::function<void()>& work) {
-  std::vector<std::function<void()>> queue;
-  queue.swap(queue_);
-  unlock();
-  for (const auto& kernel : queue) kernel();
+void EmulatedCuda::wait(EmulatedStream& stream) { run(stream, stream.num_done + static_cast<long>(stream.queue.size())); }
+
+void EmulatedCuda::wait_device(int device) {
+  for (auto& [key, stream] : streams_) {
+    if (stream->device == device) wait(*stream);
+  }
+}
+
+void EmulatedCuda::run_now(int device, const std::function<void()>& work) {
+  if (num_unlocked_[device]++ == 0) protect(device, PROT_READ | PROT_WRITE);
   work();
-  lock();
+  if (--num_unlocked_[device] == 0) protect(device, PROT_NONE);
 }
 
-void EmulatedCuda::unlock() {
-  for (const Allocation& allocation : allocations_) ::mprotect(allocation.begin, allocation.num_bytes, PROT_READ | PROT_WRITE);
+void EmulatedCuda::run(EmulatedStream& stream, long num_done) {
+  if (stream.num_done >= num_done) return;
+  run_now(stream.device, [&] {
+    while (stream.num_done < num_done) {
+      const std::function<void()> work = std::move(stream.queue.front());
+      stream.queue.pop_front();
+      ++stream.num_done;
+      work();
+    }
+  });
 }
 
-void EmulatedCuda::lock() {
-  for (const Allocation& allocation : allocations_) ::mprotect(allocation.begin, allocation.num_bytes, PROT_NONE);
+void EmulatedCuda::protect(int device, int protection) {
+  for (const Allocation& allocation : allocations_) {
+    if (allocation.device == device) ::mprotect(allocation.begin, allocation.num_bytes, protection);
+  }
 }
 
 void LaneBarrier::wait(const char* place) {

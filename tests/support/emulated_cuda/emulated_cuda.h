@@ -1,51 +1,77 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// A CUDA device played by the host, for tests on machines without one.
+/// CUDA devices played by the host, for tests on machines without one.
 ///
 /// A test that links it runs the host code of Device::kCuda unchanged, with the kernels' bodies on threads:
-///   - device memory can be touched by kernels alone; the host crashes on it as it would on the real one. What is allocated is filled with
-///     garbage and has an inaccessible page behind it;
-///   - kernels are queued, and run no sooner than the host waits for them, so that a body that refers to the host's stack is found out;
+///   - device memory can be touched by kernels on this device alone; the host, and kernels on the other device, crash on it as they would
+///   on
+///     real ones. What is allocated is filled with garbage and has an inaccessible page behind it;
+///   - kernels are queued in streams, and run no sooner than the host waits for their stream, or a stream waits for it that the host waits
+///   for,
+///     so that a body that refers to the host's stack is found out, and so is work that relies on another stream without waiting;
 ///   - a team has several lanes, each a thread of its own, so that ThreadSanitizer finds a missing sync();
 ///   - launches, allocations, copies and waits are counted.
 #pragma once
 
 #include <condition_variable>
 #include <cstddef>
+#include <deque>
 #include <functional>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <utility>
 #include <vector>
 
 namespace foothold::test {
 
-/// What was asked of the device since the last reset_counts().
+/// What was asked of the devices since the last reset_counts().
 struct EmulatedCudaCounts {
   int num_launches = 0;
   int num_allocations = 0;  ///< of device memory
   int num_frees = 0;
-  int num_waits = 0;         ///< the host waited for its stream
-  int num_device_waits = 0;  ///< the host waited for the whole device, as allocations' contents and copies outside of streams do
+  int num_waits = 0;         ///< the host waited for a stream
+  int num_device_waits = 0;  ///< the host waited for a whole device, as allocations' contents and copies outside of streams do
   int num_reads = 0;         ///< copies to the host in stream order; those of one call share one of num_waits
   int num_writes = 0;        ///< copies to the device in stream order
 };
 
+/// Work that waits to be done in its order.
+struct EmulatedStream {
+  int device = 0;
+  std::deque<std::function<void()>> queue;
+  long num_done = 0;
+};
+
 class EmulatedCuda {
  public:
-  /// There is one device, as there is one GPU.
+  static constexpr int kNumDevices = 2;
+
+  /// All of the machine's devices.
   static EmulatedCuda& instance();
 
-  void* allocate(std::size_t num_bytes);
-  /// Waits, as cudaFree() does.
+  void* allocate(int device, std::size_t num_bytes);
+  /// Waits for the device, as cudaFree() does.
   void free(void* pointer) noexcept;
-  /// Queues work that may touch device memory.
-  void launch(std::function<void()> kernel);
+
+  /// The stream that is known by a name, made when it is first asked for.
+  std::shared_ptr<EmulatedStream> stream(int device, const void* name);
+  /// A name that no other stream has.
+  void* new_stream_name() { return reinterpret_cast<void*>(++num_named_); }
+  void forget_stream(int device, const void* name) { streams_.erase({device, name}); }
+
+  /// Queues work that may touch the memory of the stream's device.
+  void launch(EmulatedStream& stream, std::function<void()> kernel);
   /// Queues a copy or the like, which counts as no launch.
-  void enqueue(std::function<void()> work) { queue_.push_back(std::move(work)); }
-  /// Runs what is queued.
-  void wait();
-  /// Runs work that touches device memory at once, behind what is queued.
-  void run_now(const std::function<void()>& work);
+  void enqueue(EmulatedStream& stream, std::function<void()> work) { stream.queue.push_back(std::move(work)); }
+  /// Queues the wait for all that the other stream was asked for so far.
+  void wait_for(EmulatedStream& stream, const std::shared_ptr<EmulatedStream>& other);
+  /// Runs what is queued in a stream.
+  void wait(EmulatedStream& stream);
+  /// Runs what is queued in all streams of a device.
+  void wait_device(int device);
+  /// Runs work that touches the memory of a device at once.
+  void run_now(int device, const std::function<void()>& work);
 
   /// Lets the next copy outside of streams fail.
   void fail_next_copy() { copy_fails_ = true; }
@@ -57,16 +83,19 @@ class EmulatedCuda {
 
  private:
   struct Allocation {
+    int device;
     unsigned char* begin;    ///< of the pages
     std::size_t num_bytes;   ///< of the pages
     unsigned char* pointer;  ///< what the caller got: its end is the pages' end
   };
 
-  void unlock();
-  void lock();
+  void run(EmulatedStream& stream, long num_done);
+  void protect(int device, int protection);
 
   std::vector<Allocation> allocations_;
-  std::vector<std::function<void()>> queue_;
+  std::map<std::pair<int, const void*>, std::shared_ptr<EmulatedStream>> streams_;
+  std::size_t num_named_ = 0;
+  int num_unlocked_[kNumDevices] = {};  ///< by how many that are at work
   EmulatedCudaCounts counts_;
   bool copy_fails_ = false;
 };

@@ -83,13 +83,14 @@ class CudaExecutor {
   static constexpr MemoryKind kMemory = MemoryKind::kCuda;
   static constexpr int kVectorWidth = 1;
 
-  explicit CudaExecutor(const Context& context) : context_(context) {}
+  explicit CudaExecutor(const Context& context)
+      : context_(context), stream_(device_.stream(context.memory().cuda_device, context.stream())) {}
 
   /// Backwards on three threads: no body may count on any order.
   template <class Body>
   void for_each(std::size_t n, const Body& body) const {
     if (n == 0) return;
-    device_.launch([n, body] {
+    device_.launch(*stream_, [n, body] {
       constexpr std::size_t kThreads = 3;
       if (n < kThreads) {
         for (std::size_t i = n; i-- > 0;) body(i);
@@ -111,7 +112,7 @@ class CudaExecutor {
   template <class Scratch, class Body>
   void for_each_team(std::size_t n, const Body& body) const {
     if (n == 0) return;
-    device_.launch([n, body] {
+    device_.launch(*stream_, [n, body] {
       CudaTeam::Shared shared;
       const auto scratch = std::make_unique<Aligned<Scratch>>();
       test::run_lanes(CudaTeam::kSize, [&](int lane) {
@@ -128,7 +129,7 @@ class CudaExecutor {
 
   void exclusive_scan(Span<const std::uint32_t> in, Span<std::uint32_t> out) const {
     detail::cuda_scratch(context_, in.size() / 4 + 1);
-    device_.launch([in, out] {
+    device_.launch(*stream_, [in, out] {
       std::uint32_t total = 0;
       for (std::size_t i = 0; i < in.size(); ++i) {
         out[i] = total;
@@ -142,7 +143,7 @@ class CudaExecutor {
     if (keys.empty() || low_bit == high_bit) return;
     buffer.resize(keys.size());
     detail::cuda_scratch(context_, keys.size() / 4 + 1);
-    device_.launch([keys, low_bit, high_bit] {
+    device_.launch(*stream_, [keys, low_bit, high_bit] {
       const int num_bits = high_bit - low_bit;
       const std::uint64_t mask = (num_bits == 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << static_cast<unsigned>(num_bits)) - 1)
                                  << static_cast<unsigned>(low_bit);
@@ -162,6 +163,7 @@ class CudaExecutor {
 
   const Context& context_;
   test::EmulatedCuda& device_ = test::EmulatedCuda::instance();
+  std::shared_ptr<test::EmulatedStream> stream_;
 };
 
 }  // namespace foothold

@@ -50,7 +50,7 @@ struct IcpState {
 static_assert(sizeof(IcpState) == 408, "copied from the device");
 
 struct IcpTracker::Scratch {
-  explicit Scratch(MemoryKind memory)
+  explicit Scratch(const Memory& memory)
       : guess(memory), states(memory), world_from_cameras(memory), chunk_sums(memory), row_counts(memory), row_offsets(memory) {}
 
   DepthLevel levels[kMaxIcpLevels];

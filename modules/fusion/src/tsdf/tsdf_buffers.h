@@ -11,7 +11,7 @@ namespace foothold {
 
 /// Buffers of one frame's integration, kept so that no frame allocates after warm-up.
 struct TsdfVolume::Scratch {
-  explicit Scratch(MemoryKind memory)
+  explicit Scratch(const Memory& memory)
       : claims(memory),
         claimed_slots(memory),
         claimed(memory),
@@ -45,7 +45,7 @@ struct TsdfTables {
   std::uint8_t* surface_octants = nullptr;
 };
 
-static_assert(sizeof(PosedDepth) == 96 && sizeof(PosedColour) == 88 && sizeof(TsdfView) == 56,
+static_assert(sizeof(PosedDepth) == 96 && sizeof(PosedColour) == 96 && sizeof(TsdfView) == 56,
               "made by the host's compiler, read by nvcc's code");
 
 }  // namespace foothold

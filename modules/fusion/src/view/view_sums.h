@@ -48,7 +48,7 @@ FOOTHOLD_HD ViewMoments moments_of(const T* sums) {
 }
 
 struct ViewComparer::Scratch {
-  explicit Scratch(MemoryKind memory) : pixels(memory), pose(memory), tile_sums(memory), totals(memory) {}
+  explicit Scratch(const Memory& memory) : pixels(memory), pose(memory), tile_sums(memory), totals(memory) {}
 
   Intrinsics intrinsics;  ///< of the reduced image
   int width = 0;

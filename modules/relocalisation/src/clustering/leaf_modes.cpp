@@ -59,7 +59,9 @@ void LeafModes::clear() {
   num_owned_blocks_.clear_to_zero();
 }
 
-std::size_t LeafModes::state_bytes() const { return modes_.state_bytes() + num_modes_.num_bytes() + num_owned_blocks_.num_bytes(); }
+std::size_t LeafModes::state_bytes(const Context& context) const {
+  return modes_.state_bytes(context) + num_modes_.num_bytes() + num_owned_blocks_.num_bytes();
+}
 
 void LeafModes::update(const Context& context, LeafReservoirs& reservoirs) {
   const ClusteringBuffers buffers{keys_,      sort_buffer_,   costs_,      cost_before_,    chosen_,

@@ -46,7 +46,7 @@ class LeafModes {
   bool was_idle(const Context& context) const { return chosen_.read(context, 0) >= static_cast<std::uint32_t>(num_leaves_); }
 
   LeafModesView view() { return {modes_.view(), num_modes_.data(), num_owned_blocks_.data()}; }
-  std::size_t state_bytes() const;
+  std::size_t state_bytes(const Context& context) const;
   void clear();
 
   void save(CheckedWriter& writer) const;

@@ -22,7 +22,7 @@ constexpr std::uint64_t kMostEmptySlots = std::uint64_t{1} << 22U;
 constexpr std::uint64_t kMostSlotsPerEntry = 16;
 }  // namespace
 
-LearntViews::LearntViews(MemoryKind memory)
+LearntViews::LearntViews(const Memory& memory)
     : slots_(memory),
       keys_(memory),
       sort_buffer_(memory),

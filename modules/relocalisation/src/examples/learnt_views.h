@@ -21,7 +21,7 @@ class CheckedWriter;
 /// Determinism: what is kept depends on the frames and their order, never on threads or device.
 class LearntViews {
  public:
-  explicit LearntViews(MemoryKind memory);
+  explicit LearntViews(const Memory& memory);
 
   /// Keeps the examples that have depth and show what was not learnt often enough from there, in their order, and counts them.
   /// @param camera_scene  position of the camera in the frame of the examples' points [m].

@@ -24,7 +24,7 @@ static_assert(sizeof(ReservoirPoint) == 8, "loaded as one word");
 
 /// Examples of one frame, in grid order.
 struct TrainingExamples {
-  explicit TrainingExamples(MemoryKind memory) : pixels(memory), points(memory), leaves(memory) {}
+  explicit TrainingExamples(const Memory& memory) : pixels(memory), points(memory), leaves(memory) {}
   Array<SampledPixel> pixels;
   Array<ReservoirPoint> points;
   Array<std::uint32_t> leaves;  ///< num_trees x num_pixels

@@ -61,7 +61,7 @@ struct SampleTrainingPixel {
   }
 };
 
-static_assert(sizeof(Frame) == 144 && sizeof(SampleTrainingPixel) == 232, "made by the host's compiler, read by nvcc's code");
+static_assert(sizeof(Frame) == 152 && sizeof(SampleTrainingPixel) == 240, "made by the host's compiler, read by nvcc's code");
 
 /// The colour of an example's pixel.
 struct ColourExample {

@@ -34,7 +34,7 @@ std::vector<ForestFeature> turned_features(const std::vector<ForestFeature>& upr
 
 }  // namespace
 
-DeviceForest::DeviceForest(MemoryKind memory, const Forest& forest, int num_rolls)
+DeviceForest::DeviceForest(const Memory& memory, const Forest& forest, int num_rolls)
     : features_(memory, Span<const ForestFeature>(turned_features(forest.features(), num_rolls))),
       nodes_(memory, Span<const ForestNode>(forest.nodes())),
       roots_(memory, Span<const std::int32_t>(forest.roots())),

@@ -13,7 +13,7 @@ namespace foothold {
 class DeviceForest {
  public:
   /// @param num_rolls  evenly spaced rolls to turn features by.
-  DeviceForest(MemoryKind memory, const Forest& forest, int num_rolls);
+  DeviceForest(const Memory& memory, const Forest& forest, int num_rolls);
 
   int num_rolls() const { return num_rolls_; }
   /// The forest for a camera that is rolled: 0 is upright, then the nearest to upright come first, to either side.

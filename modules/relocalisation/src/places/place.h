@@ -23,7 +23,9 @@ struct Place {
   bool is_used = false;    ///< something was learnt
   bool is_settled = true;  ///< all that was learnt is in the modes
 
-  std::size_t state_bytes() const { return learnt.state_bytes() + reservoirs.state_bytes() + modes.state_bytes(); }
+  std::size_t state_bytes(const Context& context) const {
+    return learnt.state_bytes() + reservoirs.state_bytes(context) + modes.state_bytes(context);
+  }
   SE3 place_from_camera(const SE3& world_from_camera) const {
     return {world_from_camera.rotation, world_from_camera.translation - origin_world};
   }

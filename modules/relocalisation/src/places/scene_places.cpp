@@ -34,7 +34,7 @@ void ScenePlaces::drop_unused(std::size_t place) {
 
 std::size_t ScenePlaces::state_bytes() const {
   std::size_t sum = 0;
-  for (const Place& place : places_) sum += place.state_bytes();
+  for (const Place& place : places_) sum += place.state_bytes(context_);
   return sum;
 }
 

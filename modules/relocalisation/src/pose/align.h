@@ -35,7 +35,7 @@ static_assert(sizeof(AlignmentState) == 56, "lives in device memory");
 
 /// Owns all of it.
 struct Alignment {
-  Alignment(MemoryKind memory, int num_samples, int num_candidates)
+  Alignment(const Memory& memory, int num_samples, int num_candidates)
       : surfaces(memory, static_cast<std::size_t>(num_samples)),
         offsets(memory),
         state(memory, 1),

@@ -28,7 +28,7 @@ struct HypothesesView {
 
 /// Owns the hypotheses.
 struct Hypotheses {
-  Hypotheses(MemoryKind memory, int num_hypotheses)
+  Hypotheses(const Memory& memory, int num_hypotheses)
       : poses(memory, static_cast<std::size_t>(num_hypotheses)),
         energies(memory, poses.size()),
         order(memory, poses.size()),

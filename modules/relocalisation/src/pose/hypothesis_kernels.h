@@ -115,8 +115,9 @@ struct MakeEnergyKey {
   bool first_time;
   FOOTHOLD_HD void operator()(std::size_t i) const {
     const std::uint32_t hypothesis = first_time ? static_cast<std::uint32_t>(i) : hypotheses.at(i);
+    const float energy = hypotheses.energies[hypothesis];  // copied from memory, it would be loaded byte by byte
     std::uint32_t bits = 0;
-    memcpy(&bits, &hypotheses.energies[hypothesis], sizeof(bits));
+    memcpy(&bits, &energy, sizeof(bits));
     hypotheses.order[i] = (static_cast<std::uint64_t>(bits) << 32U) | hypothesis;
   }
 };

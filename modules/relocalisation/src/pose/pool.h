@@ -30,7 +30,7 @@ struct CorrespondencePoolView {
 
 /// Owns the pool, and what filling it needs.
 struct CorrespondencePool {
-  CorrespondencePool(MemoryKind memory, int pool_size)
+  CorrespondencePool(const Memory& memory, int pool_size)
       : sampled(memory, static_cast<std::size_t>(pool_size)),
         leaves(memory),
         mode_counts(memory, sampled.size()),

@@ -13,7 +13,7 @@ namespace foothold {
 extern template struct PoseAlgorithms<CudaExecutor>;
 #endif
 
-PoseBuffers::PoseBuffers(MemoryKind memory, const SearchPlan& plan)
+PoseBuffers::PoseBuffers(const Memory& memory, const SearchPlan& plan)
     : pool(memory, plan.pool_size),
       hypotheses(memory, plan.num_hypotheses),
       assignments(memory, plan.cull_survivors, plan.pool_size),

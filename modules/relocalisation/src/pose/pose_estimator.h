@@ -21,7 +21,7 @@ namespace foothold {
 
 /// What the stages of an estimate work on; each is described in its stage's header.
 struct PoseBuffers {
-  PoseBuffers(MemoryKind memory, const SearchPlan& plan);
+  PoseBuffers(const Memory& memory, const SearchPlan& plan);
 
   CorrespondencePool pool;
   Hypotheses hypotheses;

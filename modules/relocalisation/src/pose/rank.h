@@ -37,7 +37,7 @@ static_assert(sizeof(SceneEvidence) == 12, "lives in device memory");
 
 /// Owns both.
 struct Ranking {
-  Ranking(MemoryKind memory, int num_points, int num_hypotheses)
+  Ranking(const Memory& memory, int num_points, int num_hypotheses)
       : points(memory, static_cast<std::size_t>(num_points)), evidence(memory, static_cast<std::size_t>(num_hypotheses)) {
     evidence.clear_to_zero();
   }

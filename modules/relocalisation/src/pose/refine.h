@@ -17,7 +17,7 @@ inline constexpr std::size_t kLargestGroup = 16;
 
 /// The mode that each sample was assigned for each hypothesis that is refined.
 struct ModeAssignments {
-  ModeAssignments(MemoryKind memory, int num_refined, int pool_size)
+  ModeAssignments(const Memory& memory, int num_refined, int pool_size)
       : nearest(memory, (static_cast<std::size_t>(num_refined) + kLargestGroup - 1) / kLargestGroup * kLargestGroup *
                             static_cast<std::size_t>(pool_size)) {}
 

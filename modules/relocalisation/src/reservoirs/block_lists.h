@@ -27,31 +27,34 @@ struct BlockListsView {
 };
 
 /// Owns the pool. Address space for full lists is reserved at construction: on the host, pages cost memory only once they are written;
-/// on CUDA devices the pool is allocated whole, so that no frame ever allocates.
+/// on CUDA devices the pool is allocated whole and kept, so that no frame ever allocates.
 template <class T, int kBlockSize>
 class BlockLists {
  public:
   using View = BlockListsView<T, kBlockSize>;
 
-  BlockLists(MemoryKind memory, int num_lists, int max_elements)
+  BlockLists(const Memory& memory, int num_lists, int max_elements)
       : max_blocks_(View::blocks_for(max_elements)),
         pool_(memory),
         blocks_(memory, static_cast<std::size_t>(num_lists) * static_cast<std::size_t>(max_blocks_)),
         num_used_blocks_(memory, 1) {
     pool_.reserve(blocks_.size() * kBlockSize);
-    clear();
+    clear_tables();
   }
 
   View view() { return {pool_.data(), blocks_.data(), max_blocks_}; }
   /// Blocks handed out so far, in the lists' memory: kernels add to it.
   std::uint32_t* num_used_blocks() { return num_used_blocks_.data(); }
-  std::uint32_t used_blocks() const { return num_used_blocks_.to_host()[0]; }
-  std::size_t state_bytes() const { return used_blocks() * kBlockSize * sizeof(T) + blocks_.num_bytes(); }
+  /// Waits for the context's stream.
+  std::size_t state_bytes(const Context& context) const {
+    return num_used_blocks_.read(context, 0) * kBlockSize * sizeof(T) + blocks_.num_bytes();
+  }
   void clear() {
-    pool_ = Array<T>(pool_.memory());
-    pool_.reserve(blocks_.size() * kBlockSize);
-    blocks_.clear_to_zero();
-    num_used_blocks_.clear_to_zero();
+    if (pool_.memory().kind == MemoryKind::kHost && used_blocks() > 0) {  // gives back the pages that were written
+      pool_ = Array<T>(pool_.memory());
+      pool_.reserve(blocks_.size() * kBlockSize);
+    }
+    clear_tables();
   }
 
   BlockLists(BlockLists&&) noexcept = default;
@@ -79,7 +82,12 @@ class BlockLists {
   }
 
  private:
-  void copy_used(const T* from, MemoryKind memory) {
+  std::uint32_t used_blocks() const { return num_used_blocks_.to_host()[0]; }
+  void clear_tables() {
+    blocks_.clear_to_zero();
+    num_used_blocks_.clear_to_zero();
+  }
+  void copy_used(const T* from, const Memory& memory) {
     const std::size_t num_bytes = used_blocks() * kBlockSize * sizeof(T);
     if (num_bytes != 0) detail::copy_memory(pool_.memory(), pool_.data(), memory, from, num_bytes);
   }

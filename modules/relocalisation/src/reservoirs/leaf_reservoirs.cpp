@@ -43,7 +43,9 @@ LeafReservoirsView LeafReservoirs::view() {
   return {blocks_.view(), num_seen_.data(), num_changed_.data(), num_leaves_, settings_.capacity, derive_seed(seed_, kReplacementStream)};
 }
 
-std::size_t LeafReservoirs::state_bytes() const { return blocks_.state_bytes() + num_seen_.num_bytes() + num_changed_.num_bytes(); }
+std::size_t LeafReservoirs::state_bytes(const Context& context) const {
+  return blocks_.state_bytes(context) + num_seen_.num_bytes() + num_changed_.num_bytes();
+}
 
 void LeafReservoirs::insert(const Context& context, const TrainingExamples& examples) {
   const std::size_t num_keys = examples.leaves.size();

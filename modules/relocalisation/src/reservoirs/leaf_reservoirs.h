@@ -66,7 +66,7 @@ class LeafReservoirs {
   void insert(const Context& context, const TrainingExamples& examples);
 
   LeafReservoirsView view();
-  std::size_t state_bytes() const;
+  std::size_t state_bytes(const Context& context) const;
   void clear();
 
   void save(CheckedWriter& writer) const;

@@ -23,13 +23,13 @@ struct MemoryRead;
 void read_memory(const Context& context, Span<const MemoryRead> reads);
 void write_memory(const Context& context, void* device, const void* host, std::size_t num_bytes);
 /// Returns 64-byte aligned memory. @throws CudaError, std::bad_alloc, or DeviceError in a build without CUDA.
-void* allocate_memory(MemoryKind memory, std::size_t num_bytes);
+void* allocate_memory(const Memory& memory, std::size_t num_bytes);
 /// Frees what allocate_memory() returned; never throws.
-void free_memory(MemoryKind memory, void* pointer) noexcept;
-/// Copies between any two kinds of memory, once the device has done all that it was asked for, and waits: not for use within a frame.
-void copy_memory(MemoryKind to_memory, void* to, MemoryKind from_memory, const void* from, std::size_t num_bytes);
+void free_memory(const Memory& memory, void* pointer) noexcept;
+/// Copies between any two places, once the devices there have done all that they were asked for, and waits: not for use within a frame.
+void copy_memory(const Memory& to_memory, void* to, const Memory& from_memory, const void* from, std::size_t num_bytes);
 /// Sets every byte to zero.
-void clear_memory(MemoryKind memory, void* pointer, std::size_t num_bytes);
+void clear_memory(const Memory& memory, void* pointer, std::size_t num_bytes);
 
 /// A copy from the memory of a context's device to the host.
 struct MemoryRead {
@@ -39,7 +39,7 @@ struct MemoryRead {
 };
 }  // namespace detail
 
-/// A growing buffer of elements that may be copied as bytes, whose kind of memory is fixed at construction.
+/// A growing buffer of elements that may be copied as bytes, whose place is fixed at construction.
 ///
 /// resize() keeps the contents and never gives memory back, so a buffer that is reused from frame to frame soon stops allocating.
 /// New elements are uninitialised unless stated. Not thread-safe.
@@ -49,11 +49,11 @@ class Array {
   static_assert(std::is_trivially_destructible_v<T>, "Array moves its elements as bytes");
 
  public:
-  explicit Array(MemoryKind memory = MemoryKind::kHost) : memory_(memory) {}
+  explicit Array(const Memory& memory = {}) : memory_(memory) {}
   // Delegating, so that the destructor frees what was allocated before an exception.
-  Array(MemoryKind memory, std::size_t size) : Array(memory) { resize(size); }
-  /// Copies host elements into memory of the given kind.
-  Array(MemoryKind memory, Span<const T> host) : Array(memory) { assign(host); }
+  Array(const Memory& memory, std::size_t size) : Array(memory) { resize(size); }
+  /// Copies host elements to the given place.
+  Array(const Memory& memory, Span<const T> host) : Array(memory) { assign(host); }
 
   Array(const Array& other) : Array(other.memory_) { copy_from(other); }
   Array(Array&& other) noexcept { swap(other); }
@@ -70,7 +70,7 @@ class Array {
     std::swap(capacity_, other.capacity_);
   }
 
-  MemoryKind memory() const { return memory_; }
+  const Memory& memory() const { return memory_; }
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   /// Memory held, in bytes; at least size() elements.
@@ -138,7 +138,7 @@ class Array {
     if (size_ != 0) detail::copy_memory(memory_, data_, other.memory_, other.data_, size_ * sizeof(T));
   }
 
-  MemoryKind memory_ = MemoryKind::kHost;
+  Memory memory_;
   T* data_ = nullptr;
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;

@@ -39,26 +39,36 @@ struct ContextOptions {
   Device device = Device::kCpu;
   /// Threads used on the host, the calling one included; 0 means as many as the machine has. [0, 1024]
   int num_threads = 0;
-  /// The CUDA stream (a cudaStream_t) to work on, which must outlive the context. Hosts that fill device images on a stream of their own
-  /// name it here, so that images are read after they are written and before they are overwritten; nullptr is CUDA's default stream. If
-  /// none is named, the context has a stream of its own that waits for no other: such a host then synchronises before and after each call.
+  /// The index of the CUDA device to work on, as CUDA counts those that CUDA_VISIBLE_DEVICES leaves; whatever device is the calling
+  /// thread's current one, it is so again when a call returns. [0, number of devices - 1]
+  int cuda_device = 0;
+  /// The CUDA stream (a cudaStream_t) to work on, which belongs to the device and must outlive the context. Hosts that fill device images
+  /// on a stream of their own name it here, so that images are read after they are written and before they are overwritten; nullptr is
+  /// CUDA's default stream. If none is named, the context has a stream of its own that waits for no other: such a host then synchronises
+  /// before and after each call.
   std::optional<void*> cuda_stream;
   LogSink log;
-  /// Receives the duration of every stage when given; must outlive the context. Tracing waits for the device after each stage.
+  /// Receives the duration of every stage when given; must outlive the context. On CUDA it is the time between two marks in the stream, and
+  /// a stage that lies in no other ends with waiting for the device.
   Trace* trace = nullptr;
 };
 
 /// A device with its threads and stream. Cheap to copy; copies share the threads and the stream.
 ///
-/// One context serves one thread of control at a time; two contexts, and so two relocalisers, may coexist.
+/// One context serves one thread of control at a time; two contexts, and so two relocalisers, may coexist, on one CUDA device or on two.
+/// Copies of a context work in the order in which they are asked. Two contexts that were made apart do not wait for each other: what both
+/// work on, such as a frame that one uploads and the other reads, needs wait_for() between them.
 class Context {
  public:
-  /// @throws InvalidSettings for a thread count out of range; DeviceError if the device or its driver is missing, or the build has no CUDA.
+  /// @throws InvalidSettings for a thread count or device index out of range, or a stream of another device; DeviceError if the device or
+  /// its driver is missing, or the build has no CUDA or no code for the device.
   explicit Context(const ContextOptions& options = {});
 
   Device device() const;
-  /// The kind of memory that this context's kernels work on.
-  MemoryKind memory() const { return memory_of(device()); }
+  /// The device's own name, such as "NVIDIA H100 80GB HBM3", or "CPU".
+  std::string device_name() const;
+  /// The memory that this context's kernels work on.
+  Memory memory() const;
   int num_threads() const;
   Trace* trace() const;
   void log(LogLevel level, const std::string& message) const;
@@ -66,6 +76,9 @@ class Context {
   void* stream() const;
   /// Waits until the device has finished what was asked of this context.
   void synchronise() const;
+  /// What is asked of this context from now on begins after all that was asked of the other so far. The host does not wait, unless one of
+  /// the two works on the CPU.
+  void wait_for(const Context& other) const;
   /// The oneTBB task arena (a tbb::task_arena) that host work runs in.
   void* arena() const;
 
@@ -73,18 +86,20 @@ class Context {
   friend void* detail::cuda_scratch(const Context& context, std::size_t num_bytes);
   friend void detail::read_memory(const Context& context, Span<const detail::MemoryRead> reads);
   friend void detail::write_memory(const Context& context, void* device, const void* host, std::size_t num_bytes);
+  friend class ScopedStage;
 
   struct State;
   std::shared_ptr<State> state_;
 };
 
-/// True if this build has CUDA and a usable device is present. Never throws; `reason`, if given, receives why not.
-bool cuda_available(std::string* reason = nullptr);
+/// True if this build has CUDA and the device of this index can be used. Never throws; `reason`, if given, receives why not.
+bool cuda_available(std::string* reason = nullptr, int cuda_device = 0);
 
 /// Adds the lifetime of this object to the context's trace under a name. Free without a trace.
 class ScopedStage {
  public:
-  ScopedStage(const Context& context, const char* name) : context_(context), name_(name) {}
+  /// @pre `name` outlives the outermost stage. @throws CudaError if the device fails.
+  ScopedStage(const Context& context, const char* name);
   ~ScopedStage();
   ScopedStage(const ScopedStage&) = delete;
   ScopedStage& operator=(const ScopedStage&) = delete;

@@ -27,7 +27,7 @@ struct ImageView {
   T* data = nullptr;
   int width = 0;
   int height = 0;
-  MemoryKind memory = MemoryKind::kHost;
+  Memory memory;
 
   FOOTHOLD_HD bool empty() const { return data == nullptr || width <= 0 || height <= 0; }
   FOOTHOLD_HD std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
@@ -49,7 +49,7 @@ struct ColourView {
   int width = 0;
   int height = 0;
   int bytes_per_pixel = 3;
-  MemoryKind memory = MemoryKind::kHost;
+  Memory memory;
 
   FOOTHOLD_HD bool empty() const { return data == nullptr || width <= 0 || height <= 0; }
   /// The pixel in column u and row v. Never checks bounds.

@@ -29,10 +29,20 @@ namespace foothold {
 /// Where a computation runs.
 enum class Device { kCpu, kCuda };
 
-/// Where memory lives: host pointers must never be read by a kernel, nor CUDA pointers by the host.
+/// Whom memory belongs to: host pointers must never be read by a kernel, nor CUDA pointers by the host.
 enum class MemoryKind { kHost, kCuda };
 
-/// The memory that a device's kernels work on.
-constexpr MemoryKind memory_of(Device device) { return device == Device::kCpu ? MemoryKind::kHost : MemoryKind::kCuda; }
+/// Where memory lives: on the host, or on a CUDA device. The kind alone, MemoryKind::kCuda, means CUDA's device 0.
+struct Memory {
+  MemoryKind kind = MemoryKind::kHost;
+  int cuda_device = 0;  ///< the index of the device, as CUDA counts them; 0 on the host
+
+  // NOLINTNEXTLINE(google-explicit-constructor): a kind is a place where there is one device
+  FOOTHOLD_HD constexpr Memory(MemoryKind memory_kind = MemoryKind::kHost, int device_index = 0)
+      : kind(memory_kind), cuda_device(device_index) {}
+};
+
+FOOTHOLD_HD constexpr bool operator==(const Memory& a, const Memory& b) { return a.kind == b.kind && a.cuda_device == b.cuda_device; }
+FOOTHOLD_HD constexpr bool operator!=(const Memory& a, const Memory& b) { return !(a == b); }
 
 }  // namespace foothold

@@ -38,7 +38,7 @@ static_assert(sizeof(SurfacePixel) == 16, "surface maps are shared with kernels"
 
 /// A rendered surface, or several from different poses of one camera, in the memory of the context that rendered them.
 struct SurfaceMap {
-  explicit SurfaceMap(MemoryKind memory = MemoryKind::kHost) : world_from_cameras(memory), pixels(memory), colours(memory) {}
+  explicit SurfaceMap(const Memory& memory = {}) : world_from_cameras(memory), pixels(memory), colours(memory) {}
 
   /// Of several renderings only the camera counts, not its pose.
   RenderCamera camera;

@@ -99,7 +99,7 @@ void set_world_from_camera(TrackingState& state, const SE3& world_from_camera) {
 /// @param device  The host's own name for the memory that its images are up to date in, as GetData() takes it.
 /// @param memory  The same memory in Foothold's terms.
 template <class View, class MemoryDevice>
-Frame make_frame(const View& view, MemoryDevice device, MemoryKind memory, std::int64_t index = 0) {
+Frame make_frame(const View& view, MemoryDevice device, const Memory& memory, std::int64_t index = 0) {
   const auto& calibration = detail::dereferenced(view.calib);
   Frame frame;
   frame.depth = {view.depth->GetData(device), view.depth->noDims.x, view.depth->noDims.y, memory};
@@ -117,7 +117,8 @@ template <class MemoryDevice>
 class Adapter {
  public:
   /// @param device  As in make_frame().
-  Adapter(Relocaliser& relocaliser, MemoryDevice device, MemoryKind memory) : relocaliser_(relocaliser), device_(device), memory_(memory) {}
+  Adapter(Relocaliser& relocaliser, MemoryDevice device, const Memory& memory)
+      : relocaliser_(relocaliser), device_(device), memory_(memory) {}
 
   /// Learns from a view whose pose the host trusts. @pre Depth and colour have the same size.
   template <class View, class TrackingState>
@@ -144,7 +145,7 @@ class Adapter {
  private:
   Relocaliser& relocaliser_;
   MemoryDevice device_;
-  MemoryKind memory_;
+  Memory memory_;
   std::int64_t num_frames_ = 0;
 };
 

@@ -8,20 +8,15 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "foothold/base/array.h"
 #include "foothold/base/context.h"
 #include "foothold/base/error.h"
+#include "foothold/base/exec/cuda_call.cuh"
 #include "foothold/base/span.h"
 
 namespace foothold {
-
-namespace detail {
-/// @throws CudaError with the call's text if it failed.
-void check_cuda(cudaError_t status, const char* call, const char* file, int line);
-}  // namespace detail
-
-#define FOOTHOLD_CUDA_CHECK(call) ::foothold::detail::check_cuda((call), #call, __FILE__, __LINE__)
 
 /// The lanes of one thread block.
 struct CudaTeam {
@@ -107,6 +102,7 @@ __global__ void __launch_bounds__(CudaTeam::kSize) for_each_team_with_scratch_ke
 }
 }  // namespace detail
 
+/// While one exists, the context's device is the calling thread's current one.
 class CudaExecutor {
  public:
   using Team = CudaTeam;
@@ -114,7 +110,11 @@ class CudaExecutor {
   static constexpr MemoryKind kMemory = MemoryKind::kCuda;
   static constexpr int kVectorWidth = 1;
 
-  explicit CudaExecutor(const Context& context) : context_(context), stream_(static_cast<cudaStream_t>(context.stream())) {}
+  explicit CudaExecutor(const Context& context)
+      : context_(context), stream_(static_cast<cudaStream_t>(context.stream())), device_(context.memory().cuda_device) {
+    FOOTHOLD_CUDA_CHECK(device_.status());
+    clear_foreign_error();
+  }
 
   template <class Body>
   void for_each(std::size_t n, const Body& body) const {
@@ -172,8 +172,17 @@ class CudaExecutor {
   void synchronise() const { FOOTHOLD_CUDA_CHECK(cudaStreamSynchronize(stream_)); }
 
  private:
+  /// After a launch CUDA tells the last error of the thread, which may be one that the program left there before it called Foothold.
+  void clear_foreign_error() const {
+    const cudaError_t status = cudaGetLastError();
+    if (status == cudaSuccess) return;
+    context_.log(LogLevel::kWarning, std::string("a CUDA call of the program has failed before it called Foothold, unnoticed until now: ") +
+                                         cudaGetErrorString(status) + " (" + cudaGetErrorName(status) + ")");
+  }
+
   const Context& context_;
   cudaStream_t stream_;
+  detail::CudaDeviceScope device_;
 };
 
 }  // namespace foothold
