@@ -111,7 +111,9 @@ int run_app(CommandLine& app, int argc, char** argv, const std::function<int()>&
 bool interrupted() { return interrupt_requested != 0; }
 
 void add_device_options(CommandLine& app, DeviceOptions& options) {
-  app.add_option("--device", options.device, "Where to compute: cpu or cuda").one_of({"cpu", "cuda"}).show_default();
+  app.add_option("--device", options.device, "Where to compute: cpu, cuda, or cuda:N for the GPU of that index")
+      .type_name("cpu|cuda[:N]")
+      .show_default();
   app.add_option("--threads", options.num_threads, "Host threads; 0 for as many as the machine has").show_default();
 }
 
