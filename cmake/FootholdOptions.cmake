@@ -6,6 +6,7 @@ set(FOOTHOLD_OPENNI AUTO CACHE STRING "Module openni (OpenNI2): AUTO, ON or OFF"
 set(FOOTHOLD_CUDA_ARCHITECTURES AUTO CACHE STRING "GPUs to compile for, as CMAKE_CUDA_ARCHITECTURES has them; AUTO: those of this machine, else any")
 set(FOOTHOLD_CPU x86-64-v3 CACHE STRING "Instruction set of host code as -march understands it; 'native' for this machine, empty for the compiler's default")
 option(FOOTHOLD_WERROR "Treat warnings as errors" OFF)
+option(FOOTHOLD_UNITY "Compile modules and apps several sources at a time: half the compiler's work for a whole build, more for a changed file" OFF)
 set(FOOTHOLD_SANITIZE "" CACHE STRING "Sanitizers for everything, as -fsanitize understands them, e.g. address,undefined")
 foreach(option FOOTHOLD_CUDA FOOTHOLD_IO FOOTHOLD_OPENNI)
   set_property(CACHE ${option} PROPERTY STRINGS AUTO ON OFF)

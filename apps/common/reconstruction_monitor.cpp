@@ -11,7 +11,7 @@ namespace {
 /// Weight of the newest frame in shown times: numbers that people can read.
 constexpr double kNewestWeight = 0.1;
 /// Width of the rendered map [px].
-constexpr int kModelWidth = 320;
+constexpr int kRenderedWidth = 320;
 /// Every so many fused frames feed the map from above.
 constexpr int kMapInterval = 5;
 /// For how many frames a relocalisation is news.
@@ -112,8 +112,8 @@ void ReconstructionMonitor::render_model(const RgbdFrame& frame, const FusionPip
     contents.model = shaded_picture(pipeline.rendering());
     return;
   }
-  const float factor = static_cast<float>(kModelWidth) / static_cast<float>(frame.depth.width());
-  const RenderCamera camera{frame.calibration.depth.scaled(factor), kModelWidth,
+  const float factor = static_cast<float>(kRenderedWidth) / static_cast<float>(frame.depth.width());
+  const RenderCamera camera{frame.calibration.depth.scaled(factor), kRenderedWidth,
                             std::max(1, static_cast<int>(factor * static_cast<float>(frame.depth.height()))), *world_from_camera_};
   SurfaceMap rendering(memory_);
   raycaster_->render(pipeline.volume(), camera, rendering, true);

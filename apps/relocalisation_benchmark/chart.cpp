@@ -14,13 +14,9 @@ namespace {
 using apps::Canvas;
 using apps::TextAlign;
 
-constexpr double kTitleHeight = 13.0;
-constexpr double kLabelHeight = 10.0;
 constexpr double kLeftMargin = 62.0;
 constexpr double kTopMargin = 56.0;  ///< of title and names
 constexpr double kBottomMargin = 52.0;
-constexpr Rgb8 kInk = {40, 40, 40};
-constexpr Rgb8 kFaint = {222, 222, 222};
 /// Ticks closer than this lose their label [px].
 constexpr double kTickSpacing = 34.0;
 

@@ -11,6 +11,12 @@
 
 namespace foothold::benchmark {
 
+// How all charts look.
+inline constexpr double kTitleHeight = 13.0;  ///< of letters [px]
+inline constexpr double kLabelHeight = 10.0;  ///< of letters [px]
+inline constexpr Rgb8 kInk = {40, 40, 40};
+inline constexpr Rgb8 kFaint = {222, 222, 222};
+
 /// An area of a picture [px].
 struct Box {
   double left = 0.0;

@@ -79,7 +79,6 @@ Json method_json(const MethodConfidence& method) {
 }
 
 std::string confidence_table(const std::vector<MethodConfidence>& methods) {
-  const auto percent = [](double fraction) { return format_number(100.0 * fraction, 1); };
   std::vector<std::vector<std::string>> rows;
   for (const MethodConfidence& method : methods) {
     const ConfidenceReport& report = method.report;

@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "common/canvas.h"
+#include "foothold/base/angle.h"
 #include "foothold/evaluation/text_table.h"
 
 namespace foothold::benchmark {
@@ -25,9 +26,8 @@ constexpr Rgb8 kText = {232, 235, 240};
 constexpr Rgb8 kDim = {148, 158, 172};
 constexpr Rgb8 kRight = {76, 201, 164};
 constexpr Rgb8 kWrong = {242, 150, 90};
-constexpr double kDegPerRad = 57.29577951308232;
 
-constexpr int kMargin = 12;
+constexpr int kGap = 12;
 constexpr int kTileWidth = 288;
 constexpr int kCaptionHeight = 40;
 constexpr int kColumns = 4;
@@ -257,24 +257,24 @@ Image<Rgb8> draw_candidates(const FailureCase& failure, SceneModel& model) {
   const std::size_t num_shown = std::min(candidates.size(), kMostCandidates);
   const int frame_width = failure.frame.depth.width();
   const int tile_height = kTileWidth * failure.frame.depth.height() / frame_width;
-  const int large_width = 2 * kTileWidth + kMargin;
+  const int large_width = 2 * kTileWidth + kGap;
   const int large_height = large_width * failure.frame.depth.height() / frame_width;
   const int num_rows = (static_cast<int>(num_shown) + kColumns - 1) / kColumns;
-  Canvas canvas(kColumns * (kTileWidth + kMargin) + kMargin,
-                kMargin + large_height + kCaptionHeight + num_rows * (tile_height + kCaptionHeight), kBackground);
+  Canvas canvas(kColumns * (kTileWidth + kGap) + kGap, kGap + large_height + kCaptionHeight + num_rows * (tile_height + kCaptionHeight),
+                kBackground);
 
-  const Panel live = place(canvas, failure.frame.colour, {kMargin, kMargin}, large_width, frame_width);
+  const Panel live = place(canvas, failure.frame.colour, {kGap, kGap}, large_width, frame_width);
   if (!candidates.empty()) draw_support(canvas, live, failure, candidates.front(), false, 3.5);
-  const Panel truth = place(canvas, model.render(camera_of(failure, failure.truth()), kNothing), {2 * kMargin + large_width, kMargin},
-                            large_width, frame_width);
+  const Panel truth =
+      place(canvas, model.render(camera_of(failure, failure.truth()), kNothing), {2 * kGap + large_width, kGap}, large_width, frame_width);
   draw_frame_around(canvas, truth.area, kRight);
-  const double caption_y = kMargin + large_height + 17.0;
+  const double caption_y = kGap + large_height + 17.0;
   canvas.text({static_cast<double>(live.area.x), caption_y}, "The live frame, with what supports the first hypothesis", 11.0, kText);
   canvas.text({static_cast<double>(truth.area.x), caption_y}, "The map from the true pose", 11.0, kText);
 
   for (std::size_t i = 0; i < num_shown; ++i) {
-    const int left = kMargin + static_cast<int>(i % kColumns) * (kTileWidth + kMargin);
-    const int top = kMargin + large_height + kCaptionHeight + static_cast<int>(i / kColumns) * (tile_height + kCaptionHeight);
+    const int left = kGap + static_cast<int>(i % kColumns) * (kTileWidth + kGap);
+    const int top = kGap + large_height + kCaptionHeight + static_cast<int>(i / kColumns) * (tile_height + kCaptionHeight);
     const Image<Rgb8> view = model.render(camera_of(failure, candidates[i].world_from_camera).reduced(2), kNothing);
     const Panel panel = place(canvas, view, {left, top}, kTileWidth, frame_width);
     draw_support(canvas, panel, failure, candidates[i], true, 2.2);

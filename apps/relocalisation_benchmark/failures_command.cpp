@@ -8,6 +8,7 @@
 #include "commands.h"
 #include "common/progress_bar.h"
 #include "failure_pictures.h"
+#include "foothold/base/angle.h"
 #include "foothold/base/error.h"
 #include "foothold/evaluation/text_table.h"
 #include "foothold/io/image_file.h"
@@ -19,7 +20,6 @@
 namespace foothold::benchmark {
 namespace {
 
-constexpr double kDegPerRad = 57.29577951308232;
 /// Failures nearer than this in one recording show the same.
 constexpr std::int64_t kLeastFramesApart = 15;
 const std::vector<std::string> kTableHead = {"sequence", "frame", "cm", "deg", "confidence", "first right of the candidates"};

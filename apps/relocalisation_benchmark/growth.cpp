@@ -12,8 +12,6 @@
 namespace foothold::benchmark {
 namespace {
 
-std::string percent(double fraction) { return format_number(100.0 * fraction, 1); }
-
 std::string spread_text(const Spread& ms) { return format_number(ms.median, 1) + "/" + format_number(ms.p95, 1); }
 
 double accepted_fraction(const MethodReport& report) {

@@ -22,6 +22,8 @@ std::string left_out_text(const BenchmarkResult& result);
 std::string all_tables(const BenchmarkResult& result);
 /// The result as a JSON document.
 std::string json_document(const BenchmarkResult& result);
+/// A fraction in percent with one decimal, for tables.
+std::string percent(double fraction);
 /// A number that reads back to the same single-precision value; empty if it is not finite.
 std::string csv_number(double value);
 /// Text for a CSV cell: quoted if need be.

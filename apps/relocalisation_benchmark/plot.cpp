@@ -26,18 +26,14 @@ constexpr double kMapHeader = 40.0;  ///< title above the map
 constexpr double kMapFooter = 40.0;  ///< scale bar below it
 constexpr int kMapsPerRow = 3;
 constexpr double kMargin = 24.0;
-constexpr double kTitleHeight = 13.0;
-constexpr double kLabelHeight = 10.0;
 /// Recall is averaged over this many tests, fewer in short runs.
 constexpr int kLongestWindow = 50;
 
-constexpr Rgb8 kInk = {40, 40, 40};
-constexpr Rgb8 kFaint = {222, 222, 222};
 constexpr Rgb8 kFoundColour = {0, 158, 115};
 constexpr Rgb8 kWrongColour = {213, 94, 0};
 constexpr Rgb8 kLostColour = {110, 110, 110};
 
-std::string percent(double fraction) { return format_number(100.0 * fraction, 1) + " %"; }
+std::string with_percent_sign(double fraction) { return format_number(100.0 * fraction, 1) + " %"; }
 
 double found_fraction(const MethodResult& method) {
   const auto is_found = [](const TestRecord& test) { return test.within(kFoundThreshold); };
@@ -62,7 +58,7 @@ std::vector<double> moving_recall(const std::vector<TestRecord>& tests, int wind
 double draw_legend(Canvas& canvas, const BenchmarkResult& result, cv::Point2d right_end) {
   double x = right_end.x;
   for (std::size_t i = result.methods.size(); i-- > 0;) {
-    const std::string label = result.methods[i].name + " " + percent(found_fraction(result.methods[i]));
+    const std::string label = result.methods[i].name + " " + with_percent_sign(found_fraction(result.methods[i]));
     canvas.text({x, right_end.y}, label, kLabelHeight, kInk, TextAlign::kRight);
     x -= Canvas::text_width(label, kLabelHeight) + 8.0;
     canvas.line({x - 22.0, right_end.y}, {x, right_end.y}, curve_colour(i), 3.0);
@@ -188,7 +184,7 @@ void draw_scale_bar(Canvas& canvas, cv::Point2d left_end, double px_per_m) {
 }
 
 void draw_map(Canvas& canvas, const MethodResult& method, const std::vector<cv::Point2d>& positions_m, const Box& box) {
-  canvas.text({box.left, box.top + 10.0}, method.name + ": " + percent(found_fraction(method)) + " found", kTitleHeight, kInk);
+  canvas.text({box.left, box.top + 10.0}, method.name + ": " + with_percent_sign(found_fraction(method)) + " found", kTitleHeight, kInk);
   const MapScale scale(positions_m, {box.left + 10.0, box.top + kMapHeader, box.right - 10.0, box.bottom - kMapFooter});
   for (std::size_t i = 1; i < positions_m.size(); ++i) {
     if (method.log.tests[i].input_index == method.log.tests[i - 1].input_index)

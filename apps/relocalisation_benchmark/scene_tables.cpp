@@ -36,8 +36,6 @@ std::vector<std::pair<std::string, std::string>> rows_of(const std::vector<Scene
   return rows;
 }
 
-std::string percent(double fraction) { return format_number(100.0 * fraction, 1); }
-
 }  // namespace
 
 Json scenes_json(const std::vector<Scene>& scenes) {

@@ -15,9 +15,6 @@
 namespace foothold::benchmark {
 namespace {
 
-/// The paper clusters 256 leaves per call; 200 calls go once round the 42,000 leaves of its forest.
-constexpr int kDefaultSettlingUpdates = 200;
-
 /// Test frames of the official splits. Reference: [Shotton2013].
 const std::map<std::string, int>& official_test_frames() {
   static const std::map<std::string, int> counts = {{"chess", 2000},   {"fire", 2000},       {"heads", 1000}, {"office", 4000},

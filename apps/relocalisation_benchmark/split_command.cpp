@@ -12,9 +12,6 @@
 namespace foothold::benchmark {
 namespace {
 
-/// The paper clusters 256 leaves per call; 200 calls go once round the 42,000 leaves of its forest.
-constexpr int kDefaultSettlingUpdates = 200;
-
 struct SplitOptions {
   CommonOptions common;
   std::vector<std::string> training;

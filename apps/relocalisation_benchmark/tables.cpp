@@ -19,8 +19,6 @@ constexpr const char* kSummaryKey =
     "5/5 and confident. false: confident, but beyond 10/10. ms: median/95th percentile. state: the learnt scene. peak: the whole "
     "process.\n";
 
-std::string percent(double fraction) { return format_number(100.0 * fraction, 1); }
-
 /// "median/p95".
 std::string spread(const Spread& ms) { return format_number(ms.median, 2) + "/" + format_number(ms.p95, 2); }
 

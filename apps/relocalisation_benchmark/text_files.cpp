@@ -2,13 +2,12 @@
 // Copyright (c) 2026 The Foothold authors
 #include <cmath>
 
+#include "foothold/base/angle.h"
 #include "foothold/base/number_text.h"
 #include "outputs.h"
 
 namespace foothold::benchmark {
 namespace {
-
-constexpr double kDegPerRad = 57.29577951308232;
 
 void append_pose(const SE3& world_from_camera, std::string& line) {
   for (int row = 0; row < 3; ++row) {
@@ -19,6 +18,8 @@ void append_pose(const SE3& world_from_camera, std::string& line) {
 }
 
 }  // namespace
+
+std::string percent(double fraction) { return format_number(100.0 * fraction, 1); }
 
 std::string csv_number(double value) {
   if (!std::isfinite(value)) return {};

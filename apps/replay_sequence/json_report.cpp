@@ -12,7 +12,6 @@ using apps::Json;
 
 /// Raised when a key changes its meaning or goes away; new keys do not raise it.
 constexpr int kFormatVersion = 2;
-constexpr double kMb = 1e-6;
 
 Json ate_json(const AbsoluteTrajectoryError& error) {
   return {{"rmse_m", error.rmse_m}, {"mean_m", error.mean_m}, {"median_m", error.median_m}, {"max_m", error.max_m}};

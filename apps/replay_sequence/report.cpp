@@ -9,8 +9,6 @@
 namespace foothold::replay {
 namespace {
 
-constexpr double kMb = 1e-6;
-
 std::vector<std::string> run_row(const std::string& name, const ReplayRun& run) {
   const RunCounts counts = count_frames(run);
   const std::optional<RunError> error = run_error(run);

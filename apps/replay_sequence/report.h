@@ -11,6 +11,8 @@
 
 namespace foothold::replay {
 
+inline constexpr double kMb = 1e-6;  ///< megabytes in a byte
+
 /// What became of the frames of a run.
 struct RunCounts {
   int num_frames = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
+#include "foothold/base/angle.h"
 #include "foothold/base/se3.h"
 
 #include <Eigen/Geometry>
@@ -62,8 +63,7 @@ float rotation_distance_rad(const SE3& a, const SE3& b) {
 float translation_distance_m(const SE3& a, const SE3& b) { return (a.translation - b.translation).norm(); }
 
 bool is_near(const SE3& a, const SE3& b, float distance_m, float angle_deg) {
-  constexpr float kDegPerRad = 57.29578F;
-  return translation_distance_m(a, b) < distance_m && rotation_distance_rad(a, b) * kDegPerRad < angle_deg;
+  return translation_distance_m(a, b) < distance_m && rotation_distance_rad(a, b) * static_cast<float>(kDegPerRad) < angle_deg;
 }
 
 bool is_valid(const Intrinsics& k) {

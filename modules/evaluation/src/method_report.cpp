@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "foothold/base/angle.h"
 #include "foothold/base/trace.h"
 
 namespace foothold {
@@ -12,7 +13,6 @@ namespace {
 
 /// Tests in a window of MethodReport::recall_per_100.
 constexpr std::size_t kWindowTests = 100;
-constexpr double kDegPerRad = 57.29577951308232;
 
 double fraction_of(int part, std::size_t whole) { return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole); }
 

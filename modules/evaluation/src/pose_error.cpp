@@ -2,13 +2,14 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/evaluation/pose_error.h"
 
+#include "foothold/base/angle.h"
+
 #include <cmath>
 
 namespace foothold {
 namespace {
 
 /// Degrees in a radian.
-constexpr double kDegPerRad = 57.29577951308232;
 /// Poses are single precision: an error of exactly a limit must not fail by its rounding.
 constexpr double kRounding = 1e-6;
 

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "foothold/base/angle.h"
 #include "foothold/base/exec/cpu_executor.h"
 #include "rolled_frame.h"
 
 namespace foothold {
 namespace {
 
-enum Stream : std::uint64_t { kFeatureStream = 100, kPixelStream, kPartnerStream, kRollStream };
+enum : std::uint64_t { kFeatureStream = 100, kPixelStream, kPartnerStream, kRollStream };
 
 constexpr std::size_t kMaxSeenViews = 256;  // 150 kB each at a quarter of 640x480
 constexpr int kPixelDraws = 64;             // after which a frame is taken to have no depth
@@ -50,7 +51,6 @@ bool ForestExampleCollector::collect(const Sequence& sequence, std::size_t scene
         if (copy == 0) {
           add_frame(frame, key, examples);
         } else {
-          constexpr float kRadPerDeg = 0.0174532925F;
           const float angle_deg =
               Random(derive_seed(settings_.seed, kRollStream), key).uniform(-settings_.max_roll_deg, settings_.max_roll_deg);
           add_frame(rolled_frame(frame, angle_deg * kRadPerDeg), key, examples);

@@ -11,7 +11,7 @@
 namespace foothold {
 namespace {
 
-enum Stream : std::uint64_t { kSubsetStream = 300 };
+enum : std::uint64_t { kSubsetStream = 300 };
 
 constexpr std::size_t kLargeNode = 4096;  // examples from which a node's candidates are shared out among threads
 

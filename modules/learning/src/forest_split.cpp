@@ -10,7 +10,7 @@
 namespace foothold {
 namespace {
 
-enum Stream : std::uint64_t { kCandidateStream = 200 };
+enum : std::uint64_t { kCandidateStream = 200 };
 
 constexpr int kGroup = kSplitGroup;
 constexpr std::size_t kFloatSums = 256;  // examples summed in single precision before the sums are added up in double

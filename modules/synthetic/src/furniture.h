@@ -32,6 +32,9 @@ class Choices {
   Random random_;
 };
 
+/// Handles, rods and taps.
+inline const Colour kSteel(0.62F, 0.63F, 0.65F);
+
 // Tables and seats.
 void table(const RoomBuilder& b, float width, float depth, float height, const Material& top, const Material& legs, std::uint32_t seed);
 void desk(const RoomBuilder& b, float width, const Material& top, const Material& frame, std::uint32_t seed);

@@ -7,8 +7,6 @@
 namespace foothold::synthetic_detail {
 namespace {
 
-const Colour kSteel(0.62F, 0.63F, 0.65F);
-
 /// Books side by side on a shelf from x = left, their backs facing -y.
 void row_of_books(const RoomBuilder& b, float left, float right, float depth, float clear_height, Choices& choices) {
   float x = left;

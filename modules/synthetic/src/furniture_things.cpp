@@ -6,7 +6,6 @@ namespace foothold::synthetic_detail {
 namespace {
 
 const Colour kBlack(0.08F, 0.08F, 0.09F);
-const Colour kSteel(0.62F, 0.63F, 0.65F);
 
 }  // namespace
 

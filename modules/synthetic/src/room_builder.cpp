@@ -2,14 +2,14 @@
 // Copyright (c) 2026 The Foothold authors
 #include "room_builder.h"
 
+#include "foothold/base/angle.h"
+
 #include <Eigen/Geometry>
 
 namespace foothold::synthetic_detail {
 namespace {
 
 using Eigen::Vector3f;
-
-constexpr float kRadPerDeg = 0.017453293F;
 
 Eigen::Matrix3f turn(float angle_deg, const Vector3f& axis) {
   const Eigen::Matrix3f rotation = Eigen::AngleAxisf(angle_deg * kRadPerDeg, axis).toRotationMatrix();

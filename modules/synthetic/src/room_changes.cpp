@@ -22,7 +22,7 @@ using Eigen::Vector3f;
 constexpr int kMostTries = 40;
 constexpr float kShortestShift_m = 0.25F;
 constexpr float kLongestShift_m = 1.2F;
-constexpr float kLargestTurn_rad = 1.57F;
+constexpr float kLargestFurnitureTurn_rad = 1.57F;
 /// What is this near to a wall belongs there [m].
 constexpr float kAtWall_m = 0.12F;
 /// Things are put on surfaces of at least this half size [m], between these heights [m].
@@ -96,7 +96,7 @@ class Rearrangement {
   /// Elsewhere on what it stands on, along the wall that it is at, or about the floor.
   SE3 draw_move(const Piece& piece, int attempt) {
     const Vector3f centre = piece.extent.center();
-    const float turn = choices_.between(-kLargestTurn_rad, kLargestTurn_rad);
+    const float turn = choices_.between(-kLargestFurnitureTurn_rad, kLargestFurnitureTurn_rad);
     if (piece.support.has_value()) {
       const Extent surface = extent_of(furnishing_.room().primitives[*piece.support]);
       return yaw_about(centre, turn, draw_on(surface) - Vector3f(centre.x(), centre.y(), 0.0F));

@@ -9,7 +9,7 @@ namespace {
 constexpr float kDeskZ = 0.73F;
 
 /// What every desk of the office has; only the things lying about differ.
-void workplace(const RoomBuilder& b, Choices& choices) {
+void desk_with_chair(const RoomBuilder& b, Choices& choices) {
   desk(b, 1.5F, wood({0.72F, 0.6F, 0.45F}, 0.4F, 0.3F), plain({0.55F, 0.56F, 0.58F}), 40);
   monitor(b.at(-0.2F, -0.22F, kDeskZ, 6.0F), 0.52F, 50);
   keyboard(b.at(-0.2F, -0.52F, kDeskZ));
@@ -33,8 +33,8 @@ Room make_office() {
   world.light({-1.4F, 0.6F, 2.6F}, {1.7F, 1.65F, 1.5F});
   world.light({1.5F, -0.6F, 2.6F}, {1.6F, 1.65F, 1.7F});
   world.light({0.2F, 2.0F, 1.8F}, {0.5F, 0.6F, 0.75F});
-  for (const float x : {-1.65F, 0.0F, 1.65F}) workplace(world.against_north(x), choices);
-  for (const float x : {-1.65F, 0.0F, 1.65F}) workplace(world.against_south(x), choices);
+  for (const float x : {-1.65F, 0.0F, 1.65F}) desk_with_chair(world.against_north(x), choices);
+  for (const float x : {-1.65F, 0.0F, 1.65F}) desk_with_chair(world.against_south(x), choices);
   for (const float x : {-1.5F, 0.3F}) framed_picture(world.against_north(x), 0.6F, 0.45F, 1.75F, choices);
   window(world.against_north(1.75F), 1.3F, 1.0F, 1.25F, 4);
   whiteboard(world.against_south(0.6F), 1.8F, 1.65F, 9);

@@ -14,8 +14,6 @@ namespace {
 
 using namespace synthetic_detail;
 
-/// The width for which lengths in pixels are given.
-constexpr float kReferenceWidth = 640.0F;
 constexpr float kNoisePatch_px = 4.0F;          // disparity errors are alike within about the matching window
 constexpr float kValueNoiseToUnitSigma = 5.2F;  // value_noise() has a standard deviation of 0.19
 

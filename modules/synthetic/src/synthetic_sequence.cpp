@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "foothold/base/angle.h"
 #include "foothold/base/contract.h"
 #include "foothold/base/error.h"
 #include "foothold/synthetic/renderer.h"
@@ -20,7 +21,6 @@ constexpr char kPrefix[] = "synthetic:";
 constexpr double kFramesPerSecond = 30.0;
 /// The nominal calibration of 7-Scenes at 640x480.
 constexpr float kFocalLength_px = 585.0F;
-constexpr float kReferenceWidth = 640.0F;
 constexpr float kReferenceHeight = 480.0F;
 
 TrajectoryKind trajectory_kind(const std::string& text) {
@@ -45,7 +45,7 @@ Context rendering_context(const Context& context) {
 }
 
 SE3 rolled(float roll_deg) {
-  const float angle = roll_deg * 0.017453293F;
+  const float angle = roll_deg * kRadPerDeg;
   SE3 result;
   result.rotation << std::cos(angle), -std::sin(angle), 0.0F, std::sin(angle), std::cos(angle), 0.0F, 0.0F, 0.0F, 1.0F;
   return result;

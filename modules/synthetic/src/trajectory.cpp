@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "foothold/base/angle.h"
 #include "foothold/base/contract.h"
 #include "foothold/base/random.h"
 #include "view_check.h"
@@ -20,7 +21,6 @@ using namespace synthetic_detail;
 using Eigen::Vector3f;
 
 constexpr double kPi = 3.14159265358979323846;
-constexpr float kRadPerDeg = 0.017453293F;
 
 // The training path: loops around the middle of the eye box, a control point every 45 degrees. (T) by the motion of 7-Scenes: about
 // 0.3 m/s and 20 deg/s.

@@ -18,8 +18,6 @@ namespace {
 using namespace synthetic_detail;
 using Eigen::Vector3f;
 
-/// The width for which lengths in pixels are given.
-constexpr float kReferenceWidth = 640.0F;
 /// Size of the patches in which depth is missing [px at that width].
 constexpr float kHole_px = 40.0F;
 /// A person from head to knee seen from the front [m^2], and how near one comes [m].

@@ -9,6 +9,9 @@
 
 namespace foothold {
 
+/// Image width for which sizes in pixels are stated [px]; other widths scale them.
+inline constexpr float kReferenceWidth = 640.0F;
+
 /// How far a structured-light camera is from ideal. The defaults describe a Kinect of the first generation.
 struct SensorModel {
   /// Focal length times baseline [px*m]: 585 px, 7.5 cm. The disparity at depth z is this over z.
