@@ -72,10 +72,12 @@ main() { # read to its end before it runs, so that the file may change meanwhile
   if $quick; then
     rooms=(kitchen office stairs) trained=(office) frames=240 stride=8 training_stride=1
     timed_training=24 timed_tests=6 confidence_stride=2 recording_stride=25 failing=(stairs) failures=1
+    places=1,2,4 trust_options=(--quick --rooms 3)
     kidnapped=(kitchen) kidnap_frames=120 kidnap_options=(--removed 2 --teleports 2 --removed-length 25 --judged 15)
   else
     rooms=(office stairs kitchen textureless workshop bookshelf lounge) trained=(office kitchen stairs) frames=600 stride=4 training_stride=2
     timed_training=120 timed_tests=30 confidence_stride=2 recording_stride=5 failing=(stairs office) failures=1
+    places=1,2,4,8,16,24 trust_options=()
     kidnapped=(kitchen office) kidnap_frames=400 kidnap_options=(--removed 8 --teleports 8 --removed-length 45 --judged 30)
   fi
 
@@ -191,6 +193,9 @@ main() { # read to its end before it runs, so that the file may change meanwhile
     experiment recordings.novel "novel views of recordings" novel "${halves[@]}" --method "$novel_methods" --stride "$recording_stride"
     experiment recordings.confidence "what confidence is worth on recordings" confidence "${strangers[@]}" --method "$methods" --stride "$recording_stride"
   fi
+
+  experiment rooms.scale "many places in one map" scale --rooms "$places"
+  experiment rooms.trust "how far answers can be trusted" trust "${trust_options[@]}" "${strangers[@]}" --stride "$recording_stride"
 
   commit=$(git -C "$repository" rev-parse --short HEAD 2>/dev/null || echo unknown)
   if [[ $commit != unknown && -n $(git -C "$repository" status --porcelain --untracked-files=no) ]]; then commit+=" with changes"; fi

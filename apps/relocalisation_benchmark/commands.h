@@ -35,5 +35,7 @@ Command add_kidnap_command(apps::CommandLine& app);
 Command add_scale_command(apps::CommandLine& app);
 /// "dwell": recall, time and memory after standing still.
 Command add_dwell_command(apps::CommandLine& app);
+/// "trust": how far answers can be trusted, by kind of question.
+Command add_trust_command(apps::CommandLine& app);
 
 }  // namespace foothold::benchmark

@@ -47,9 +47,7 @@ void check_options(const FailuresOptions& options) {
     throw InvalidSettings("--scene: got " + std::to_string(options.scene.scenes.size()) + " scenes, expected one");
   if (options.scene.common.device.device != "cpu")
     throw InvalidSettings("--device: failures draws on the host, where all numbers are the same; expected cpu");
-  if (options.pictures.empty()) return;
-  const std::filesystem::path folder = std::filesystem::absolute(options.pictures).parent_path();
-  if (!std::filesystem::is_directory(folder)) throw FileError(folder.string() + ": no such folder; expected one for --pictures");
+  check_pictures(options.pictures);
 }
 
 /// Calls `use` with every frame of the inputs and the input's index.

@@ -64,8 +64,8 @@ void add_curves(Chart& chart, const std::vector<GrowthCurve>& curves, const std:
 
 }  // namespace
 
-BeliefCounts count_beliefs(const RunLog& log, const std::vector<Place>& places) {
-  BeliefCounts counts;
+PlaceBeliefs count_beliefs(const RunLog& log, const std::vector<Place>& places) {
+  PlaceBeliefs counts;
   for (const TestRecord& test : log.tests) {
     if (!test.best.has_value() || test.best->confidence < log.acceptance_threshold) {
       ++counts.num_unsure;
@@ -121,7 +121,7 @@ std::string belief_table(const std::vector<GrowthCurve>& curves, const std::stri
   std::vector<std::vector<std::string>> rows;
   for (const GrowthCurve& curve : curves) {
     for (const GrowthPoint& point : curve.points) {
-      const BeliefCounts& beliefs = point.beliefs;
+      const PlaceBeliefs& beliefs = point.beliefs;
       rows.push_back({curve.method, std::to_string(point.amount)});
       for (const int count : {beliefs.num_right, beliefs.num_unsure, beliefs.num_wrong_here, beliefs.num_wrong_place})
         rows.back().push_back(std::to_string(count));

@@ -13,7 +13,7 @@
 namespace foothold::benchmark {
 
 /// How tests ended, as far as believing them goes; the four add up to the tests.
-struct BeliefCounts {
+struct PlaceBeliefs {
   int num_right = 0;        ///< believed, within kWrongThreshold
   int num_unsure = 0;       ///< not answered, or not believed
   int num_wrong_here = 0;   ///< believed, wrong, but nearest to the place that was shown
@@ -23,13 +23,13 @@ struct BeliefCounts {
 struct GrowthPoint {
   int amount = 0;  ///< such as places learnt, or frames of standing still
   MethodResult result;
-  BeliefCounts beliefs;
+  PlaceBeliefs beliefs;
   Spread first_train_ms;  ///< of what was learnt first: the first place, or the first frames
   Spread last_train_ms;   ///< of what was learnt last
 };
 
 /// How the tests of a run ended. @param places  What was learnt; tests of input i show place i.
-BeliefCounts count_beliefs(const RunLog& log, const std::vector<Place>& places);
+PlaceBeliefs count_beliefs(const RunLog& log, const std::vector<Place>& places);
 
 /// The durations of learning frames [begin, end).
 Spread train_spread(const RunLog& log, std::size_t begin, std::size_t end);

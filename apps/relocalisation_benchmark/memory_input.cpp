@@ -3,9 +3,14 @@
 #include "memory_input.h"
 
 #include <algorithm>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
 #include <utility>
 
 #include "common/app_main.h"
+#include "common/progress_bar.h"
 #include "foothold/base/contract.h"
 #include "foothold/base/error.h"
 #include "run_methods.h"
@@ -61,6 +66,34 @@ FrameList read_frames(const EvaluationInput& input, const Eigen::Vector3f& moved
   }
   if (frames.empty()) throw FileError(input.name + ": has no frames with a true pose; expected at least one");
   return frames;
+}
+
+void read_all(const std::vector<ReadJob>& jobs, int num_threads) {
+  apps::ProgressBar bar("frames into memory", static_cast<std::int64_t>(jobs.size()));
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;
+  std::exception_ptr failure;
+  const auto work = [&] {
+    for (std::size_t i = next++; i < jobs.size(); i = next++) {
+      try {
+        for (const EvaluationInput& input : jobs[i].inputs) {
+          const FrameList frames = read_frames(input, jobs[i].moved_by_m);
+          jobs[i].frames->insert(jobs[i].frames->end(), frames.begin(), frames.end());
+        }
+        const std::lock_guard<std::mutex> lock(mutex);
+        bar.advance();
+      } catch (...) {
+        const std::lock_guard<std::mutex> lock(mutex);
+        if (failure == nullptr) failure = std::current_exception();
+        next = jobs.size();
+      }
+    }
+  };
+  if (num_threads <= 0) num_threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  std::vector<std::thread> threads;
+  for (int i = 0; i < num_threads; ++i) threads.emplace_back(work);
+  for (std::thread& thread : threads) thread.join();
+  if (failure != nullptr) std::rethrow_exception(failure);
 }
 
 EvaluationInput memory_input(const std::string& name, FrameList frames) {

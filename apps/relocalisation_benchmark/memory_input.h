@@ -18,6 +18,17 @@ using FrameList = std::vector<std::shared_ptr<const RgbdFrame>>;
 /// @throws Interrupted; FileError naming the input if it has no such frames.
 FrameList read_frames(const EvaluationInput& input, const Eigen::Vector3f& moved_by_m = Eigen::Vector3f::Zero());
 
+/// Inputs to read, one after another, into one list.
+struct ReadJob {
+  std::vector<EvaluationInput> inputs;
+  FrameList* frames = nullptr;
+  Eigen::Vector3f moved_by_m = Eigen::Vector3f::Zero();
+};
+
+/// Does several jobs at once, showing progress on stderr. The first exception of one ends all, and is thrown as read_frames() does.
+/// @param num_threads  0 stands for as many as the machine has.
+void read_all(const std::vector<ReadJob>& jobs, int num_threads);
+
 /// Plays frames that are in memory.
 EvaluationInput memory_input(const std::string& name, FrameList frames);
 

@@ -28,6 +28,12 @@ void check_outputs(const CommonOptions& options) {
     throw InvalidSettings("--plot: got '" + options.plot_file + "', expected a name that ends in .png");
 }
 
+void check_pictures(const std::string& prefix) {
+  if (prefix.empty()) return;
+  const std::filesystem::path folder = std::filesystem::absolute(prefix).parent_path();
+  if (!std::filesystem::is_directory(folder)) throw FileError(folder.string() + ": no such folder; expected one for --pictures");
+}
+
 std::string write_outputs(const CommonOptions& options, const BenchmarkResult& result) {
   std::string told;
   const auto tell = [&](const std::string& what, const std::string& path) { told += "\n" + what + ": " + path; };

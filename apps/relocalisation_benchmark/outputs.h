@@ -35,6 +35,8 @@ std::string estimates_document(const BenchmarkResult& result, const MethodResult
 
 /// Fails early if a file asked for cannot be written. @throws FileError
 void check_outputs(const CommonOptions& options);
+/// Fails early if there is no folder for the pictures that --pictures PREFIX asks for; an empty prefix asks for none. @throws FileError
+void check_pictures(const std::string& prefix);
 /// Writes the files asked for and returns a line for people about each. @throws FileError
 std::string write_outputs(const CommonOptions& options, const BenchmarkResult& result);
 

@@ -2,14 +2,9 @@
 // Copyright (c) 2026 The Foothold authors
 #include "places.h"
 
-#include <atomic>
 #include <cmath>
-#include <exception>
 #include <limits>
-#include <mutex>
-#include <thread>
 
-#include "common/progress_bar.h"
 #include "foothold/base/contract.h"
 #include "foothold/io/sequence_player.h"
 #include "foothold/synthetic/synthetic_sequence.h"
@@ -17,8 +12,15 @@
 namespace foothold::benchmark {
 namespace {
 
-/// Frames of one path of a room. The room is built when they are asked for: building thousands takes long.
-EvaluationInput path_input(SyntheticSequenceSettings settings, const std::string& trajectory, std::vector<int> indices) {
+std::vector<int> spread_indices(int count, int end) {
+  std::vector<int> indices;
+  for (int i = 0; i < count; ++i) indices.push_back(static_cast<int>(static_cast<std::int64_t>(i) * end / count));
+  return indices;
+}
+
+}  // namespace
+
+EvaluationInput path_input(SyntheticSequenceSettings settings, const std::string& trajectory, const std::vector<int>& indices) {
   settings.trajectory = trajectory;
   settings.frames = indices.back() + 1;
   const auto open = [settings, indices]() -> std::unique_ptr<FrameSource> {
@@ -28,53 +30,6 @@ EvaluationInput path_input(SyntheticSequenceSettings settings, const std::string
   };
   return {synthetic_spec(settings), static_cast<int>(indices.size()), open};
 }
-
-std::vector<int> spread_indices(int count, int end) {
-  std::vector<int> indices;
-  for (int i = 0; i < count; ++i) indices.push_back(static_cast<int>(static_cast<std::int64_t>(i) * end / count));
-  return indices;
-}
-
-/// Inputs to read into one list of a place.
-struct Job {
-  const std::vector<EvaluationInput>* inputs = nullptr;
-  FrameList* frames = nullptr;
-  Eigen::Vector3f origin_world;
-};
-
-void load(const Job& job) {
-  for (const EvaluationInput& input : *job.inputs) {
-    const FrameList frames = read_frames(input, job.origin_world);
-    job.frames->insert(job.frames->end(), frames.begin(), frames.end());
-  }
-}
-
-/// Runs jobs on several threads; the first exception ends all.
-void load_all(const std::vector<Job>& jobs, int num_threads) {
-  apps::ProgressBar bar("frames into memory", static_cast<std::int64_t>(jobs.size()));
-  std::atomic<std::size_t> next{0};
-  std::mutex mutex;
-  std::exception_ptr failure;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < jobs.size(); i = next++) {
-      try {
-        load(jobs[i]);
-        const std::lock_guard<std::mutex> lock(mutex);
-        bar.advance();
-      } catch (...) {
-        const std::lock_guard<std::mutex> lock(mutex);
-        if (failure == nullptr) failure = std::current_exception();
-        next = jobs.size();
-      }
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 0; i < num_threads; ++i) threads.emplace_back(work);
-  for (std::thread& thread : threads) thread.join();
-  if (failure != nullptr) std::rethrow_exception(failure);
-}
-
-}  // namespace
 
 Scene room_scene(const std::string& spec, const RoomViews& views) {
   FOOTHOLD_EXPECTS(views.num_training > 0 && views.num_tests > 0 && views.stride > 0);
@@ -97,15 +52,15 @@ Eigen::Vector2i grid_field(int k) {
 
 std::vector<Place> load_places(const std::vector<Scene>& scenes, float spacing_m, int num_tested, int num_threads) {
   std::vector<Place> places(scenes.size());
-  std::vector<Job> jobs;
+  std::vector<ReadJob> jobs;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     const Eigen::Vector2f field = grid_field(static_cast<int>(i)).cast<float>() * spacing_m;
     places[i].name = scenes[i].name;
     places[i].origin_world = {field.x(), field.y(), 0.0F};
-    jobs.push_back({&scenes[i].training, &places[i].training, places[i].origin_world});
-    if (i < static_cast<std::size_t>(num_tested)) jobs.push_back({&scenes[i].tests, &places[i].tests, places[i].origin_world});
+    jobs.push_back({scenes[i].training, &places[i].training, places[i].origin_world});
+    if (i < static_cast<std::size_t>(num_tested)) jobs.push_back({scenes[i].tests, &places[i].tests, places[i].origin_world});
   }
-  load_all(jobs, num_threads > 0 ? num_threads : static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
+  read_all(jobs, num_threads);
   return places;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "foothold/synthetic/synthetic_sequence.h"
 #include "memory_input.h"
 #include "scenes.h"
 
@@ -29,7 +30,10 @@ struct RoomViews {
   int stride = 4;
 };
 
-/// A room and the frames to learn and to test in it. Frames are rendered on one thread each time the inputs are opened.
+/// Frames of one path, "train" or "test", of a room. They are rendered, on one thread, each time the input is opened.
+EvaluationInput path_input(SyntheticSequenceSettings settings, const std::string& trajectory, const std::vector<int>& indices);
+
+/// A room and the frames to learn and to test in it.
 /// @param spec  Such as "synthetic:training-100"; paths and numbers of frames are those of the views.
 Scene room_scene(const std::string& spec, const RoomViews& views);
 

@@ -14,12 +14,14 @@ import sys
 import adaptation
 import cost
 import paper
+import trust
 from charts import escape
 from load import SUITES, BadResults, Results
 
 SECTIONS = [("adaptation", "Adapting a forest to another scene", adaptation.adaptation, "adapt"), ("loss", "Losing track at every frame", adaptation.loss, "loss"),
             ("novelty", "Views far from everything learnt", adaptation.novelty, "novel"), ("cost", "Time and memory", cost.timing, "time"),
             ("confidence", "What confidence is worth", cost.confidence, "confidence"), ("kidnap", "Kidnaps", cost.kidnap, "kidnap"),
+            ("scale", "Many places in one map", trust.scale, "scale"), ("trust", "How far answers can be trusted", trust.trust, "trust"),
             ("failures", "Failures, looked at", cost.failures, "failures")]
 
 

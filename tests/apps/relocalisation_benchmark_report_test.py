@@ -28,6 +28,8 @@ EXPERIMENTS = {
     "recordings.gap.desk": [*LOSS, "--gap", "2", "--csv", "recordings.gap.desk.csv"],
     "rooms.time": ["time", "--sequence", ROOM.format("kitchen"), "--train-frames", "5", "--test-frames", "3", "--method", "forest,ferns,paper"],
     "rooms.kidnap.kitchen": ["kidnap", "--sequence", "synthetic:kitchen?frames=60&width=320&height=240", "--removed", "1", "--removed-length", "8", "--teleports", "1", "--judged", "8"],
+    "rooms.scale": ["scale", "--rooms", "1,2", "--frames", "6", "--test-frames", "3", "--size", "160x120", "--settle", "2", "--method", "forest,ferns"],
+    "rooms.trust": ["trust", "--rooms", "2", "--frames", "6", "--own", "4", "--strangers", "4", "--spoilt", "1", "--settle", "2"],
     "rooms.failures.wrong": ["failures", "--scene", FAILURES, "--settle", "2", "--count", "1", "--pictures", "rooms.failures.wrong"],
 }
 VOID_TAGS = {"meta", "img", "br"}
@@ -99,7 +101,7 @@ class PageTest(ReportTest):
 
     def test_page_holds_every_section_and_needs_nothing_else(self):
         reader = self.read_page()
-        self.assertEqual(reader.ids, ["adaptation", "loss", "novelty", "cost", "confidence", "kidnap", "failures", "reproduce"])
+        self.assertEqual(reader.ids, ["adaptation", "loss", "novelty", "cost", "confidence", "kidnap", "scale", "trust", "failures", "reproduce"])
         for reference in reader.references:
             self.assertTrue(reference.startswith(("data:image/png;base64,", "#")), reference[:80])
         page = (self.folder / "report.html").read_text()
@@ -190,7 +192,7 @@ class ScriptTest(ReportTest):
     def test_runs_everything_once_and_keeps_it(self):
         result, calls = self.report()
         self.assertEqual(result.returncode, 0, result.stderr)
-        for kind in ["adapt", "loss", "novel", "confidence", "time", "failures", "kidnap"]:
+        for kind in ["adapt", "loss", "novel", "confidence", "time", "failures", "kidnap", "scale", "trust"]:
             self.assertTrue(any(call.startswith(f"relocalisation_benchmark {kind}") for call in calls), kind)
         self.assertTrue((self.folder / "out" / "report.html").exists())
         result, calls = self.report()

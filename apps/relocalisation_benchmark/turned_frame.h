@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Frames as a camera held otherwise, or a mirror, would show them.
+#pragma once
+
+#include "foothold/api/frame.h"
+
+namespace foothold::benchmark {
+
+/// The frame of a camera turned about its optical axis, so that the image turns clockwise by quarters.
+RgbdFrame turned_frame(const RgbdFrame& frame, int num_quarters);
+
+/// The frame with left and right exchanged: a view of a place that does not exist. The pose is that of the mirrored world.
+RgbdFrame mirrored_frame(const RgbdFrame& frame);
+
+}  // namespace foothold::benchmark
