@@ -9,7 +9,6 @@
 
 #include "common/display_probe.h"
 #include "common/log.h"
-#include "foothold/frames/register_colour.h"
 #include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
 #include "foothold/frames/register_colour.h"

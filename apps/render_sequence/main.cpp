@@ -6,7 +6,6 @@
 #include "common/app_main.h"
 #include "common/progress_bar.h"
 #include "common/recording_options.h"
-#include "foothold/frames/raw_sequence.h"
 #include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
 #include "foothold/frames/raw_sequence.h"

@@ -6,8 +6,8 @@
 #include "common/app_main.h"
 #include "common/recording_options.h"
 #include "contact_sheet.h"
-#include "foothold/base/error.h"
 #include "foothold/base/atomic_file.h"
+#include "foothold/base/error.h"
 #include "foothold/io/image_file.h"
 #include "report.h"
 

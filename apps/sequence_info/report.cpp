@@ -8,8 +8,8 @@
 
 #include "common/json.h"
 #include "common/log.h"
-#include "foothold/frames/register_colour.h"
 #include "foothold/base/trace.h"
+#include "foothold/frames/register_colour.h"
 
 namespace foothold::info {
 namespace {

@@ -6,8 +6,8 @@
 #include <future>
 #include <thread>
 
-#include "foothold/frames/raw_sequence.h"
 #include "foothold/base/error.h"
+#include "foothold/frames/raw_sequence.h"
 #include "foothold/synthetic/synthetic_sequence.h"
 #include "packed_recording.h"
 

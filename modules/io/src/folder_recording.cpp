@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "foothold/frames/register_colour.h"
 #include "foothold/base/contract.h"
+#include "foothold/frames/register_colour.h"
 #include "foothold/io/recording_check.h"
 #include "image_decoding.h"
 #include "raw_image.h"

@@ -12,7 +12,8 @@
 namespace foothold {
 
 struct Raycaster::Scratch {
-  explicit Scratch(const Memory& memory) : pose(memory), cameras_from_world(memory), range_near(memory), range_far(memory), depths_m(memory) {}
+  explicit Scratch(const Memory& memory)
+      : pose(memory), cameras_from_world(memory), range_near(memory), range_far(memory), depths_m(memory) {}
 
   Array<SE3> pose;  ///< of a single rendering
   Array<SE3> cameras_from_world;
