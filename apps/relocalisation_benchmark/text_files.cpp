@@ -4,6 +4,7 @@
 
 #include "foothold/base/angle.h"
 #include "foothold/base/number_text.h"
+#include "foothold/evaluation/text_table.h"
 #include "outputs.h"
 
 namespace foothold::benchmark {
