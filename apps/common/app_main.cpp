@@ -85,8 +85,9 @@ int exit_code_of(const std::function<int()>& body) {
     log_error(error.code == cv::Error::StsNoMem ? "out of memory" : std::string("unexpected: ") + error.what());
     return error.code == cv::Error::StsNoMem ? kOutOfMemory : kBug;
   } catch (const std::exception& error) {
-    log_error(std::string("unexpected: ") + error.what());
-    return kBug;
+    const bool is_out_of_threads = std::strstr(error.what(), "pthread_create") != nullptr;  // as oneTBB says; they need memory, too
+    log_error(is_out_of_threads ? std::string("out of memory: ") + error.what() : std::string("unexpected: ") + error.what());
+    return is_out_of_threads ? kOutOfMemory : kBug;
   }
 }
 

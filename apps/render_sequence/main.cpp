@@ -60,10 +60,15 @@ int write_folder(const std::shared_ptr<const Sequence>& sequence, const std::vec
 
 int write_raw(const std::shared_ptr<const Sequence>& sequence, const std::vector<int>& indices, const std::string& path) {
   AtomicFile file(path);
-  RawSequenceWriter writer(file.stream());
-  const int num_frames = write_frames(sequence, indices, writer);
-  if (num_frames > 0) file.commit();
-  return num_frames;
+  try {
+    RawSequenceWriter writer(file.stream());
+    const int num_frames = write_frames(sequence, indices, writer);
+    if (num_frames > 0) file.commit();
+    return num_frames;
+  } catch (const FileError&) {
+    file.check();  // which knows the file and the reason, where writing is what failed
+    throw;
+  }
 }
 
 int render(const Options& options) {
