@@ -102,6 +102,7 @@ Json head_json(const ReplayOptions& options, const ReplaySettings& settings, con
            {{"removed", kidnaps.num_removed},
             {"removed_length", kidnaps.removed_length},
             {"teleports", kidnaps.num_teleports},
+            {"leaps", kidnaps.num_leaps},
             {"blackouts", kidnaps.num_blackouts},
             {"blackout_length", kidnaps.blackout_length},
             {"judged", kidnaps.num_judged},

@@ -25,6 +25,9 @@ void add_kidnap_options(apps::CommandLine& app, ReplayOptions& options) {
       .range(0, kMostKidnaps)
       .show_default();
   app.add_option("--kidnap-length", kidnaps.removed_length, "Frames of each").range(1, kMostFrames).show_default();
+  app.add_option("--leap", kidnaps.num_leaps, "Jump ahead so many times to what is not mapped yet, and then return; with --independent")
+      .range(0, kMostKidnaps)
+      .show_default();
   app.add_option("--teleport", kidnaps.num_teleports, "Jump back so many times to an earlier part, and then return")
       .range(0, kMostKidnaps)
       .show_default();

@@ -58,6 +58,8 @@ std::string describe(const Kidnap& kidnap) {
       return "jumped from frame " + from + " back to " + to;
     case KidnapKind::kReturn:
       return "jumped from frame " + from + " to " + to;
+    case KidnapKind::kLeap:
+      return "jumped from frame " + from + " ahead to " + to;
     case KidnapKind::kBlackout:
       return "the lens was covered from frame " + from + " to " + std::to_string(kidnap.to - 1);
   }

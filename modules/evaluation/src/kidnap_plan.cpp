@@ -32,7 +32,10 @@ int earliest(KidnapKind kind, int num_frames, const KidnapOptions& options) {
 
 /// Frames of the recording that a kidnap takes up, the judged ones included.
 int extent(KidnapKind kind, const KidnapOptions& options) {
-  const int left_out = kind == KidnapKind::kRemoved ? options.removed_length : kind == KidnapKind::kBlackout ? options.blackout_length : 0;
+  const int left_out = kind == KidnapKind::kRemoved    ? options.removed_length
+                       : kind == KidnapKind::kBlackout ? options.blackout_length
+                       : kind == KidnapKind::kLeap     ? options.leap_gap
+                                                       : 0;
   return left_out + options.num_judged;
 }
 
@@ -42,6 +45,8 @@ Kidnap kidnap_at(KidnapKind kind, int from, int num_frames, const KidnapOptions&
       return {kind, from, 0, from + options.removed_length};
     case KidnapKind::kBlackout:
       return {kind, from, options.blackout_length, from + options.blackout_length};
+    case KidnapKind::kLeap:
+      return {kind, from, 0, between(random, from + options.leap_gap, num_frames - options.num_judged)};
     case KidnapKind::kTeleport:
     case KidnapKind::kReturn:
       break;
@@ -79,6 +84,8 @@ const char* to_string(KidnapKind kind) {
       return "return";
     case KidnapKind::kBlackout:
       return "blackout";
+    case KidnapKind::kLeap:
+      return "leap";
   }
   return "?";
 }
@@ -90,12 +97,17 @@ void KidnapOptions::validate() const {
   check("teleport_gap", teleport_gap, 1);
   check("num_blackouts", num_blackouts, 0);
   check("blackout_length", blackout_length, 1);
+  check("num_leaps", num_leaps, 0);
+  check("leap_gap", leap_gap, 1);
   check("num_judged", num_judged, 1);
   check("num_first", num_first, 1);
 }
 
 KidnapPlan plan_sequential_kidnaps(int num_frames, const KidnapOptions& options) {
   options.validate();
+  if (options.num_leaps > 0) {
+    throw InvalidSettings("kidnaps: num_leaps is " + std::to_string(options.num_leaps) + ", expected 0 unless each kidnap is independent");
+  }
   std::vector<KidnapKind> kinds = kinds_of(options);
   Random order(options.seed, kOrder);
   for (std::size_t i = kinds.size(); i > 1; --i) std::swap(kinds[i - 1], kinds[order.below(static_cast<std::uint32_t>(i))]);
@@ -162,6 +174,7 @@ std::vector<Kidnap> plan_independent_kidnaps(int num_frames, const KidnapOptions
   spread(KidnapKind::kRemoved, options.num_removed);
   spread(KidnapKind::kTeleport, options.num_teleports);
   spread(KidnapKind::kBlackout, options.num_blackouts);
+  spread(KidnapKind::kLeap, options.num_leaps);
   std::stable_sort(kidnaps.begin(), kidnaps.end(), [](const Kidnap& a, const Kidnap& b) { return a.from < b.from; });
   return kidnaps;
 }
@@ -171,6 +184,8 @@ std::vector<PlayStep> independent_steps(const Kidnap& kidnap, int num_frames, co
   std::vector<PlayStep> steps;
   for (int i = 0; i < kidnap.num_covered; ++i) steps.push_back({kidnap.from + i, true, -1});
   for (int i = 0; i < options.num_judged && kidnap.to + i < num_frames; ++i) steps.push_back({kidnap.to + i, false, i == 0 ? 0 : -1});
+  if (kidnap.kind != KidnapKind::kLeap) return steps;
+  for (int frame = std::max(0, kidnap.from - options.num_judged); frame < kidnap.from; ++frame) steps.push_back({frame, false, -1});
   return steps;
 }
 

@@ -19,10 +19,11 @@ enum class KidnapKind {
   kRemoved,   ///< a stretch of frames is left out
   kTeleport,  ///< back to an earlier part of the recording
   kReturn,    ///< from there to where the teleport began
-  kBlackout   ///< the lens is covered while the camera moves on
+  kBlackout,  ///< the lens is covered while the camera moves on
+  kLeap       ///< ahead to a later part of the recording, which is not mapped yet but may look like what is; then back
 };
 
-/// For people and files: "removed", "teleport", "return", "blackout".
+/// For people and files: "removed", "teleport", "return", "blackout", "leap".
 const char* to_string(KidnapKind kind);
 
 /// A break in the camera's path.
@@ -47,11 +48,13 @@ struct KidnapOptions {
   int teleport_gap = 60;  ///< a teleport leads at least so many frames back; at least a quarter of a recording shorter than four times that
   int num_blackouts = 0;
   int blackout_length = 30;  ///< frames of each
+  int num_leaps = 0;         ///< independent ones only: in one run, what was mapped ahead would be known for good
+  int leap_gap = 40;         ///< a leap leads at least so many frames ahead
   int num_judged = 30;       ///< frames after a kidnap by which it is judged
   int num_first = 100;       ///< frames before the first kidnap; a quarter of a recording that is shorter than four times that
   std::uint64_t seed = 42;
 
-  int num_kidnaps() const { return num_removed + num_teleports + num_blackouts; }
+  int num_kidnaps() const { return num_removed + num_teleports + num_blackouts + num_leaps; }
   /// Throws InvalidSettings naming the field, its value and what is allowed.
   void validate() const;
 };
@@ -71,7 +74,8 @@ KidnapPlan plan_sequential_kidnaps(int num_frames, const KidnapOptions& options)
 /// @throws InvalidSettings if one does not fit into the recording.
 std::vector<Kidnap> plan_independent_kidnaps(int num_frames, const KidnapOptions& options);
 
-/// What is shown from a kidnap on, to a copy of the state before frame `from`: covered frames, then those by which it is judged.
+/// What is shown from a kidnap on, to a copy of the state before frame `from`: covered frames, then those by which it is judged. After a
+/// leap, these are as many from before it as from where it led to.
 std::vector<PlayStep> independent_steps(const Kidnap& kidnap, int num_frames, const KidnapOptions& options);
 
 /// What a system made of a frame.
