@@ -80,7 +80,8 @@ TEST_CASE("protocols: a frame that cannot be used is an error that names the inp
   REQUIRE_THROWS_WITH(run_train_test(relocaliser, {input}, {input}, 0), Contains("room, frame 5"));
 }
 
-TEST_CASE("run_tracking_loss: frames without a pose are left out, frames without depth are not found and teach nothing; both are counted") {
+TEST_CASE(
+    "run_tracking_loss: frames without a pose are left out, frames without depth are not found and teach nothing, and both are counted") {
   test::LeakDetector relocaliser;
   std::vector<RgbdFrame> frames;
   for (int i = 0; i < 6; ++i) frames.push_back(test::make_frame(i));

@@ -36,7 +36,7 @@ TEST_CASE("share_seen: what stands before or behind the surface hides it") {
   REQUIRE(share_seen(*view, {wall_seen_from(0.0F, 2.05F)}) == 1.0);
 }
 
-TEST_CASE("share_seen: a view without depth has seen nothing; a pose is needed") {
+TEST_CASE("share_seen: a view without depth has seen nothing, and a pose is needed") {
   REQUIRE(share_seen(*wall_seen_from(0.0F, 0.0F), {wall_seen_from(0.0F)}) == 0.0);
   RgbdFrame lost = *wall_seen_from(0.0F);
   lost.world_from_camera.reset();

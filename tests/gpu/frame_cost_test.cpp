@@ -38,7 +38,7 @@ ForestRelocaliserSettings few_leaves(int num_rolls) {
 }
 
 TEST_CASE(
-    "frame cost: training allocates nothing and waits once, for the number of examples that are new; relocalising waits once for each "
+    "frame cost: training allocates nothing and waits once, for the number of examples that are new, and relocalising waits once for each "
     "view that is tried, and for each count of votes") {
   const int num_rolls = GENERATE(1, 3);
   const Context context = test::context_on(Device::kCuda);

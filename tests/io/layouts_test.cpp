@@ -310,7 +310,7 @@ TEST_CASE("open_sequence: reads BundleFusion's and 12-Scenes' folders by their i
   check_room(folder, "7-Scenes");
 }
 
-TEST_CASE("parse_pose_list: rows, logs, lost poses; a bad line is named") {
+TEST_CASE("parse_pose_list: rows, logs, lost poses, and a bad line is named") {
   const std::string identity = "1 0 0 0 0 1 0 0 0 0 1 0";
   CHECK(io::parse_pose_list(identity + "\n" + identity + " 0 0 0 1\n", "t.txt").size() == 2);
   CHECK_FALSE(io::parse_pose_list("nan 0 0 0 0 1 0 0 0 0 1 0\n", "t.txt").at(0).has_value());
