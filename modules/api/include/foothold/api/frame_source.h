@@ -29,6 +29,7 @@ class Sequence {
   Sequence& operator=(const Sequence&) = default;
 };
 
+/// What came of waiting for a frame.
 enum class ReadStatus {
   kFrame,     ///< a frame was delivered
   kEnd,       ///< there will be no more

@@ -32,7 +32,8 @@ class Relocaliser {
  public:
   virtual ~Relocaliser() = default;
 
-  /// Learns from a frame whose pose is trusted. Bounded work. A frame without valid depth teaches nothing.
+  /// Learns from a frame whose pose is trusted. Bounded work. A frame without valid depth teaches nothing. A pose that mirrors, scales or
+  /// shears, or holds numbers that are not finite, is refused; kRigidTolerance says what passes.
   ///
   /// May return before the device has read a frame in CUDA memory: its images may be overwritten by work on the context's stream (see
   /// ContextOptions::cuda_stream), or by anyone once Context::synchronise() has returned. Images in host memory are free at once.

@@ -5,7 +5,9 @@
 
 namespace foothold {
 
+/// Degrees in a radian.
 inline constexpr double kDegPerRad = 57.29577951308232;
+/// Radians in a degree.
 inline constexpr float kRadPerDeg = 0.017453293F;
 
 }  // namespace foothold

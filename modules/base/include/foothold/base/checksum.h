@@ -8,6 +8,7 @@
 
 namespace foothold {
 
+/// The 64-bit FNV-1a hash of no bytes.
 inline constexpr std::uint64_t kFnvBasis = 14695981039346656037ULL;
 
 /// Continues the 64-bit FNV-1a hash of a byte stream; start with kFnvBasis. Detects damage, not malice.

@@ -30,11 +30,13 @@ void read_memory(const Context& context, Span<const MemoryRead> reads);
 void write_memory(const Context& context, void* device, const void* host, std::size_t num_bytes);
 }  // namespace detail
 
+/// How serious a message is.
 enum class LogLevel { kInfo, kWarning };
 
 /// Receives the library's messages; the default drops them.
 using LogSink = std::function<void(LogLevel, const std::string&)>;
 
+/// Which device, threads, stream, log and trace a Context works with.
 struct ContextOptions {
   Device device = Device::kCpu;
   /// Threads used on the host, the calling one included; 0 means as many as the machine has. [0, 1024]

@@ -42,7 +42,9 @@ struct Memory {
       : kind(memory_kind), cuda_device(device_index) {}
 };
 
+/// True if both are the same kind of memory, on the same device.
 FOOTHOLD_HD constexpr bool operator==(const Memory& a, const Memory& b) { return a.kind == b.kind && a.cuda_device == b.cuda_device; }
+/// True if the kind of memory or the device differs.
 FOOTHOLD_HD constexpr bool operator!=(const Memory& a, const Memory& b) { return !(a == b); }
 
 }  // namespace foothold

@@ -11,7 +11,7 @@
 
 namespace foothold {
 
-/// Replaces control characters, such as a terminal's escapes, and bytes beyond ASCII by \xNN.
+/// Replaces control characters, such as a terminal's escapes, and bytes beyond ASCII by `\xNN`.
 /// @param max_characters  What follows them is cut off and shown as "...".
 std::string printable(std::string_view text, std::size_t max_characters = 80);
 

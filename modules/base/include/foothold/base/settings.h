@@ -4,10 +4,10 @@
 ///
 /// A settings struct declares
 ///
-///   template <class Visitor> static void fields(Visitor& v) {
-///     v(&PoseSettings::num_hypotheses, "num_hypotheses", "Hypotheses kept before the first cull (P).", Range{1, 65536});
-///     v(&RelocaliserSettings::pose, "pose");                 // a nested struct
-///   }
+///     template <class Visitor> static void fields(Visitor& v) {
+///       v(&PoseSettings::num_hypotheses, "num_hypotheses", "Hypotheses kept before the first cull (P).", Range{1, 65536});
+///       v(&RelocaliserSettings::pose, "pose");                 // a nested struct
+///     }
 ///
 /// and is addressed by paths such as "pose.num_hypotheses".
 #pragma once

@@ -44,6 +44,7 @@ struct CalibrationBin {
   Interval right_95;             ///< Wilson interval of num_right / num_answers
 };
 
+/// What the confidences of a set of samples are worth.
 struct ConfidenceReport {
   int num_samples = 0;
   int num_findable = 0;

@@ -15,6 +15,7 @@
 
 namespace foothold {
 
+/// How the camera is taken elsewhere.
 enum class KidnapKind {
   kRemoved,   ///< a stretch of frames is left out
   kTeleport,  ///< back to an earlier part of the recording
@@ -41,6 +42,7 @@ struct PlayStep {
   int kidnap = -1;       ///< index of the kidnap whose judged frames begin here, or -1
 };
 
+/// How many kidnaps of each kind are planned, how long they are, and how many frames judge each.
 struct KidnapOptions {
   int num_removed = 0;      ///< stretches to leave out
   int removed_length = 60;  ///< frames of each
@@ -121,6 +123,8 @@ struct KidnapSummary {
   double p95_frames = 0.0;
   double median_ms = 0.0;
 };
+
+/// Counts outcomes. Those without judged frames are left out.
 KidnapSummary summarise_kidnaps(const std::vector<KidnapOutcome>& outcomes);
 
 }  // namespace foothold

@@ -63,6 +63,7 @@ struct MethodReport {
   double state_mb = 0.0;  ///< held for the scene at the end [1e6 bytes]
 };
 
+/// Sums up what a run noted down.
 MethodReport make_report(const RunLog& log);
 
 }  // namespace foothold

@@ -67,6 +67,7 @@ struct Progress {
   int num_found = 0;  ///< within kFoundThreshold
 };
 
+/// What a protocol reports to while it runs.
 struct ProtocolOptions {
   /// The trace of the relocaliser's context, if it has one: the source of CallTimes::stages_ms. It is emptied.
   Trace* trace = nullptr;

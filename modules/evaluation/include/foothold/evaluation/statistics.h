@@ -30,6 +30,8 @@ struct Spread {
   double median = 0.0;
   double p95 = 0.0;
 };
+
+/// The median and 95th percentile of a list; NaN for an empty one.
 Spread spread_of(const std::vector<double>& values);
 
 }  // namespace foothold

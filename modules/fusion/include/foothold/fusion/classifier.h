@@ -25,6 +25,7 @@ inline constexpr float kMostDeviations = 6.0F;
 
 /// A classifier as its file holds it.
 struct ClassifierModel {
+  /// A feature: its name, what it is normalised by, and the weights of its kernel map.
   struct Feature {
     std::string name;
     float mean = 0.0F;

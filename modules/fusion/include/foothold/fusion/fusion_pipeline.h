@@ -11,6 +11,7 @@
 
 namespace foothold {
 
+/// Settings of a FusionPipeline and of its parts.
 struct FusionSettings {
   TsdfSettings volume;
   RecoverySettings recovery;

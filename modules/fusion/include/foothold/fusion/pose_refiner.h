@@ -15,6 +15,7 @@
 
 namespace foothold {
 
+/// How many proposals are refined, in images of which size, and what is believed of them.
 struct PoseRefinerSettings {
   /// Proposals that are looked at, best first.
   int max_candidates = 16;
@@ -70,12 +71,14 @@ struct RefinedPose {
 
 /// Poses this near to one another are one: the error at which the papers of the field call a relocalisation right.
 inline constexpr float kSamePoseM = 0.05F;
+/// The same for rotations [deg].
 inline constexpr float kSamePoseDeg = 5.0F;
 
 /// Poses from which less than this part of the frame falls on the map are refused outright: what little there is agrees easily (T:
 /// train_quality_gate; R: 0.1).
 inline constexpr float kMinOverlap = 0.2F;
 
+/// The number of acceptance_features().
 inline constexpr std::size_t kNumAcceptanceFeatures = 10;
 
 /// What the acceptance classifier looks at: how the frame compares with the rendering, and how alignment went.

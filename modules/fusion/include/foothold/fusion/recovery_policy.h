@@ -8,6 +8,7 @@
 
 namespace foothold {
 
+/// What is known of the camera's pose.
 enum class RecoveryState {
   kTracking,  ///< the pose is known: good frames are fused and learnt from
   kSettling,  ///< the pose is believed, but not yet enough to change the map
@@ -36,6 +37,7 @@ struct RecoveryDecision {
   bool train = false;  ///< the relocaliser
 };
 
+/// How long a pose must be good or poor before the state changes.
 struct RecoverySettings {
   /// Good frames in a row after a recovery before the map may change again.
   int settle_frames = 10;

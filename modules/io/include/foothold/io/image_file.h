@@ -19,6 +19,7 @@ Image<std::uint16_t> read_u16_image(const std::string& path);
 
 /// Writes a PNG image; an existing file is replaced only when the new one is complete. @throws FileError
 void write_png(const std::string& path, const Image<Rgb8>& image);
+/// The same for 16 bits.
 void write_png(const std::string& path, const Image<std::uint16_t>& image);
 /// Writes a depth image [m] for people to look at: colourise_depth() from 0 to 5 m. To store depth, write 16-bit millimetres.
 void write_png(const std::string& path, const Image<float>& depth_m);

@@ -12,6 +12,7 @@ namespace foothold {
 
 /// The depths of rooms [m]: a recording whose median lies outside is read in the wrong unit, or is no room.
 inline constexpr double kLeastMedianDepth_m = 0.5;
+/// The largest median depth of a room [m].
 inline constexpr double kMostMedianDepth_m = 5.0;
 
 /// What a few frames, spread over a recording, look like.

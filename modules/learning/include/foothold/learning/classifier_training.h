@@ -22,6 +22,7 @@ struct ClassifierExample {
   int group = 0;  ///< the recording it comes from: examples of one are correlated, so cross-validation keeps them together
 };
 
+/// How a classifier is trained.
 struct ClassifierTrainingSettings {
   /// Penalty of the support vector machine.
   float penalty = 1.0F;

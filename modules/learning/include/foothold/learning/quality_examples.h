@@ -14,6 +14,7 @@
 
 namespace foothold {
 
+/// Which frames are tried from which starts, how they are spoilt, and which results count as right or wrong.
 struct QualityExampleSettings {
   /// Every so many frames are fused, with their true poses.
   int frame_stride = 4;

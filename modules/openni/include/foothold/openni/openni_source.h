@@ -94,6 +94,7 @@ enum class OpenNIState {
   kEnded,             ///< a recording is over
 };
 
+/// The state of a camera, with words for people.
 struct OpenNIStatus {
   OpenNIState state = OpenNIState::kStreaming;
   std::string message;  ///< what is wrong and what to do about it; empty while streaming

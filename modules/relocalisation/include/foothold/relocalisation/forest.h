@@ -49,10 +49,10 @@ struct ForestView {
 
 /// What a forest may have at most: files and settings ask for memory and time in proportion.
 inline constexpr int kMaxForestTrees = 32;
-inline constexpr int kMaxForestDepth = 32;  ///< splits on a path from root to leaf
-inline constexpr int kMaxForestLeaves = 1 << 20;
-inline constexpr int kMaxForestFeatures = 1 << 16;
-inline constexpr int kMaxForestProvenanceBytes = 1 << 20;
+inline constexpr int kMaxForestDepth = 32;                 ///< splits on a path from root to leaf
+inline constexpr int kMaxForestLeaves = 1 << 20;           ///< of all trees
+inline constexpr int kMaxForestFeatures = 1 << 16;         ///< that nodes choose from
+inline constexpr int kMaxForestProvenanceBytes = 1 << 20;  ///< of the text that says where a forest comes from
 
 /// An immutable forest in host memory.
 class Forest {

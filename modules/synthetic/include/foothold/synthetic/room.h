@@ -51,6 +51,7 @@ struct Material {
   float infrared_return = 1.0F;              ///< how reliably a depth camera sees it: 1 matt, 0 never (glass)
 };
 
+/// A simple shape of one material.
 struct Primitive {
   Shape shape = Shape::kBox;
   SE3 world_from_local;

@@ -12,6 +12,7 @@
 
 namespace foothold {
 
+/// Which of a room's two paths the camera takes.
 enum class TrajectoryKind {
   kTrain,  ///< loops through the room, looking at its furniture
   kTest,   ///< follows the training path at another pace, up to about a metre beside it and turned by up to about 45 degrees
