@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The Foothold authors
-"""Writes the README's tables of results between their markers, from the JSON files of scripts/report.sh.
+"""Writes the tables of results in README.md and docs/results.md between their markers, from the JSON files of scripts/report.sh.
 
-    readme_tables.py write RESULTS README --commit COMMIT
-    readme_tables.py check README
+    readme_tables.py write RESULTS DOCUMENT... --commit COMMIT
+    readme_tables.py check DOCUMENT...
 
-`check` finds tables that are stale in form: markers, stamp, columns. Numbers are not checked; they belong to the commit and machine of the stamp.
+There are two tables, `recordings` and `rooms`. Each stands once, in one of the documents. `check` finds tables that are missing or stale in form: markers, stamp,
+columns. Numbers are not checked; they belong to the commit and machine of the stamp.
 """
 
 import argparse
@@ -17,8 +18,9 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "report"))
 from load import BadResults, Results  # noqa: E402  (the path comes first)
 
-BEGIN = "<!-- results: written by scripts/readme_tables.py, do not edit -->"
-END = "<!-- results: end -->"
+BEGIN = "<!-- results {}: written by scripts/readme_tables.py, do not edit -->"
+END = "<!-- results {}: end -->"
+NAMES = ("recordings", "rooms")
 STAMP = re.compile(r"^Commit [0-9a-f]{7,40}( with changes)?, .+, \d+ hardware threads?, seed \d+\.$")
 PROTOCOL_COLUMNS = ["recording", "method", "found %", "first success", "median error", "learn, CPU ms", "relocalise, CPU ms", "scene, MB"]
 ROOM_COLUMNS = ["forest trained on", "method"]  # then a column per room, and the average
@@ -56,8 +58,8 @@ def room_table(document):
     return table([*ROOM_COLUMNS, *scenes, ROOM_LAST_COLUMN], lines, 2)
 
 
-def block(results, commit):
-    """The text between the markers, as lines."""
+def blocks(results, commit):
+    """The lines between the markers of each table."""
     rooms, recordings = results.get("rooms", "adapt"), protocol_rows(results)
     if rooms is None or not recordings:
         raise BadResults("expected results of rooms.adapt and of recordings.loss; run scripts/report.sh with --recording")
@@ -66,18 +68,31 @@ def block(results, commit):
     seed = rooms["settings"]["seed"]
     frames = sorted({run["num_tested"] for run in rooms["runs"]})
     tested = f"{frames[0]} frames" if len(frames) == 1 else f"{frames[0]} to {frames[-1]} frames"
-    return [f"Commit {commit}, {machine['processor'] or 'unknown processor'}, {threads} hardware thread{'s' if threads != 1 else ''}, seed {seed}.", "",
-            "Tracking lost at every frame of a recording, one thread; found within 5 cm and 5 deg:", "", *table(PROTOCOL_COLUMNS, recordings, 2), "",
-            f"Forests adapted to rendered rooms, {tested} tested in each, % within 5 cm and 5 deg:", "", *room_table(rooms)]
+    stamp = f"Commit {commit}, {machine['processor'] or 'unknown processor'}, {threads} hardware thread{'s' if threads != 1 else ''}, seed {seed}."
+    return {"recordings": [stamp, "", "Tracking lost at every frame of a recording, one thread; found within 5 cm and 5 deg:", "",
+                           *table(PROTOCOL_COLUMNS, recordings, 2)],
+            "rooms": [stamp, "", f"Forests adapted to rendered rooms, {tested} tested in each, % within 5 cm and 5 deg:", "", *room_table(rooms)]}
 
 
-def split(text):
-    """README before, between and behind the markers. Raises ValueError with what is wrong."""
-    if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
-        raise ValueError(f"expected one line '{BEGIN}' and behind it one line '{END}'")
-    before, rest = text.split(BEGIN)
-    inside, behind = rest.split(END)
+def split(text, name):
+    """A document before, between and behind the markers of a table. Raises ValueError with what is wrong."""
+    begin, end = BEGIN.format(name), END.format(name)
+    if text.count(begin) != 1 or text.count(end) != 1 or text.index(begin) > text.index(end):
+        raise ValueError(f"expected one line '{begin}' and behind it one line '{end}'")
+    before, rest = text.split(begin)
+    inside, behind = rest.split(end)
     return before, inside, behind
+
+
+def homes(texts):
+    """The document of each table: the one with a marker of it. Raises ValueError unless it is one."""
+    found = {}
+    for name in NAMES:
+        holders = [path for path, text in texts.items() if BEGIN.format(name) in text or END.format(name) in text]
+        if len(holders) != 1:
+            raise ValueError(f"expected one line '{BEGIN.format(name)}' in one of {', '.join(map(str, texts))}; {len(holders)} have it")
+        found[name] = holders[0]
+    return found
 
 
 def tables_of(lines):
@@ -91,56 +106,73 @@ def tables_of(lines):
     return [rows for rows in tables if rows]
 
 
-def complaints(text):
-    """What is stale in the form of a README's tables."""
+def right_columns(name, header):
+    if name == "recordings":
+        return header == PROTOCOL_COLUMNS
+    return header[:2] == ROOM_COLUMNS and header[-1] == ROOM_LAST_COLUMN and len(header) >= 4
+
+
+def complaints(text, name):
+    """What is stale in the form of a table."""
     try:
-        lines = split(text)[1].strip().split("\n")
+        lines = split(text, name)[1].strip().split("\n")
     except ValueError as error:
         return [str(error)]
     found = []
     if not STAMP.match(lines[0]):
         found.append(f"the stamp '{lines[0]}' does not name commit, processor, threads and seed")
     tables = tables_of(lines)
-    if len(tables) != 2:
-        return found + [f"{len(tables)} tables, expected 2"]
-    if tables[0][0] != PROTOCOL_COLUMNS:
-        found.append(f"columns {tables[0][0]}, expected {PROTOCOL_COLUMNS}")
-    header = tables[1][0]
-    if header[:2] != ROOM_COLUMNS or header[-1] != ROOM_LAST_COLUMN or len(header) < 4:
-        found.append(f"columns {header}, expected {ROOM_COLUMNS}, rooms and {ROOM_LAST_COLUMN}")
-    for rows in tables:
-        if len(rows) < 3 or any(len(row) != len(rows[0]) for row in rows):
-            found.append(f"the table of '{rows[0][0]}' has no rows, or rows of different length")
+    if len(tables) != 1:
+        return found + [f"{len(tables)} tables between the markers of '{name}', expected 1"]
+    rows = tables[0]
+    if not right_columns(name, rows[0]):
+        expected = PROTOCOL_COLUMNS if name == "recordings" else f"{ROOM_COLUMNS}, rooms and {ROOM_LAST_COLUMN}"
+        found.append(f"columns {rows[0]}, expected {expected}")
+    if len(rows) < 3 or any(len(row) != len(rows[0]) for row in rows):
+        found.append(f"the table of '{rows[0][0]}' has no rows, or rows of different length")
     return found
 
 
-def write(results_folder, readme, commit):
-    before, _, behind = split(readme.read_text(encoding="utf-8"))
-    inside = "\n".join(block(Results(results_folder), commit))
-    temporary = readme.with_name(readme.name + ".part")
-    temporary.write_text(f"{before}{BEGIN}\n\n{inside}\n\n{END}{behind}", encoding="utf-8")
-    temporary.replace(readme)
+def write(results_folder, texts, commit):
+    """Writes nothing unless both tables can be written."""
+    inside = blocks(Results(results_folder), commit)
+    for name, path in homes(texts).items():
+        before, _, behind = split(texts[path], name)
+        texts[path] = before + BEGIN.format(name) + "\n\n" + "\n".join(inside[name]) + "\n\n" + END.format(name) + behind
+    for path, text in texts.items():
+        temporary = path.with_name(path.name + ".part")
+        temporary.write_text(text, encoding="utf-8")
+        temporary.replace(path)
+
+
+def check(texts):
+    """What is stale, one line each."""
+    try:
+        return [f"{path}: {text}" for name, path in homes(texts).items() for text in complaints(texts[path], name)]
+    except ValueError as error:
+        return [str(error)]
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="readme_tables.py", description="Writes or checks the README's tables of results.")
+    parser = argparse.ArgumentParser(prog="readme_tables.py", description="Writes or checks the tables of results in README.md and docs/results.md.")
     commands = parser.add_subparsers(dest="command", required=True)
     writing = commands.add_parser("write", help="write the tables from a report's results")
     writing.add_argument("results")
-    writing.add_argument("readme", type=pathlib.Path)
+    writing.add_argument("documents", type=pathlib.Path, nargs="+")
     writing.add_argument("--commit", required=True)
     checking = commands.add_parser("check", help="check the tables' form")
-    checking.add_argument("readme", type=pathlib.Path)
+    checking.add_argument("documents", type=pathlib.Path, nargs="+")
     options = parser.parse_args()
     try:
+        texts = {path: path.read_text(encoding="utf-8") for path in options.documents}
         if options.command == "write":
-            write(options.results, options.readme, options.commit)
+            write(options.results, texts, options.commit)
             return 0
-        found = complaints(options.readme.read_text(encoding="utf-8"))
+        found = check(texts)
     except (BadResults, OSError, ValueError) as error:
         print(f"readme_tables: {error}", file=sys.stderr)
         return 2
-    print("\n".join(f"{options.readme}: {text}" for text in found) or "readme_tables: the form is up to date")
+    print("\n".join(found) or "readme_tables: the form is up to date")
     return 1 if found else 0
 
 

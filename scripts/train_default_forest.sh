@@ -3,7 +3,7 @@
 # Copyright (c) 2026 The Foothold authors
 #
 # Trains the forest that Foothold ships, data/default.forest, again: on rendered rooms alone, in about 80 s of processor time and 0.4 GB.
-# The bytes are the same on every machine with the same compiler and mathematical library. Why these settings: docs/forest-training.md.
+# The bytes are the same on every machine with the same compiler and mathematical library. Why these settings: docs/experiments/forest-objective.md.
 #
 #   scripts/train_default_forest.sh [PROGRAMS] [FILE]
 #

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The Foothold authors
-"""scripts/report.sh, the page it writes, and the README's tables, on tiny rooms."""
+"""scripts/report.sh, the page it writes, and the documents' tables, on tiny rooms."""
 
 import html.parser
 import json
@@ -235,7 +235,9 @@ class ScriptTest(ReportTest):
 
 
 class ReadmeTest(ReportTest):
-    markers = ("<!-- results: written by scripts/readme_tables.py, do not edit -->", "<!-- results: end -->")
+    @staticmethod
+    def markers(name):
+        return f"<!-- results {name}: written by scripts/readme_tables.py, do not edit -->", f"<!-- results {name}: end -->"
 
     def tables(self, *arguments):
         return self.run_script(sys.executable, "-B", SCRIPTS / "readme_tables.py", *arguments)
@@ -243,46 +245,65 @@ class ReadmeTest(ReportTest):
     def setUp(self):
         super().setUp()
         self.readme = self.folder / "README.md"
-        self.readme.write_text("Above\n" + "\n".join(self.markers) + "\nBelow\n")
+        self.page = self.folder / "results.md"
+        self.readme.write_text("\n".join(["Above", *self.markers("recordings"), "Below\n"]))
+        self.page.write_text("\n".join(["Above", *self.markers("rooms"), "Below\n"]))
 
     def write(self):
-        result = self.tables("write", self.results, self.readme, "--commit", "0123abc")
+        result = self.tables("write", self.results, self.readme, self.page, "--commit", "0123abc")
         self.assertEqual(result.returncode, 0, result.stderr)
-        return self.readme.read_text()
+        return self.readme.read_text(), self.page.read_text()
 
     def test_written_tables_pass_their_check(self):
-        text = self.write()
-        self.assertTrue(text.startswith("Above\n") and text.endswith("Below\n"))
-        self.assertIn("Commit 0123abc, ", text)
-        self.assertIn("| desk, 30 frames ahead | forest |", text)
-        self.assertIn("| data-free | forest |", text)
+        texts = self.write()
+        for text in texts:
+            self.assertTrue(text.startswith("Above\n") and text.endswith("Below\n"))
+            self.assertIn("Commit 0123abc, ", text)
+        self.assertIn("| desk, 30 frames ahead | forest |", texts[0])
+        self.assertIn("| data-free | forest |", texts[1])
+        self.assertEqual(self.tables("check", self.readme, self.page).returncode, 0)
+        self.assertEqual(self.write(), texts, "writing twice changes nothing")
+
+    def test_both_tables_may_stand_in_one_document(self):
+        self.readme.write_text("\n".join([*self.markers("rooms"), *self.markers("recordings")]))
+        self.assertEqual(self.tables("write", self.results, self.readme, "--commit", "0123abc").returncode, 0)
         self.assertEqual(self.tables("check", self.readme).returncode, 0)
-        self.assertEqual(self.write(), text, "writing twice changes nothing")
 
     def test_stale_forms_are_found(self):
-        text = self.write()
-        for old, new, says in [(self.markers[0], "", "expected one line"), (self.markers[1], "", "expected one line"), ("Commit 0123abc", "Commit of today", "stamp"),
-                               ("| found % |", "| recall |", "columns"), ("| average |", "| mean |", "columns"), ("| desk | forest |", "| desk |", "different length")]:
-            self.readme.write_text(text.replace(old, new, 1))
-            result = self.tables("check", self.readme)
+        texts = dict(zip((self.readme, self.page), self.write()))
+        stale = [(path, *change) for path, name in ((self.readme, "recordings"), (self.page, "rooms"))
+                 for change in ((self.markers(name)[0], "", "expected one line"), (self.markers(name)[1], "", "expected one line"),
+                                ("Commit 0123abc", "Commit of today", "stamp"))]
+        stale += [(self.readme, "| found % |", "| recall |", "columns"), (self.page, "| average |", "| mean |", "columns"),
+                  (self.readme, "| desk | forest |", "| desk |", "different length")]
+        for path, old, new, says in stale:
+            path.write_text(texts[path].replace(old, new, 1))
+            result = self.tables("check", self.readme, self.page)
             self.assertEqual(result.returncode, 1, old)
             self.assertIn(says, result.stdout)
+            path.write_text(texts[path])
+
+    def test_a_table_that_no_document_or_two_have_is_found(self):
+        self.write()
+        self.assertIn("0 have it", self.tables("check", self.readme).stdout)
+        self.assertIn("2 have it", self.tables("check", self.readme, self.page, shutil.copy(self.page, self.folder / "copy.md")).stdout)
 
     def test_tables_name_neither_host_nor_path(self):
-        text = self.write()
-        self.assertNotIn(os.uname().nodename, text)
-        self.assertNotIn(str(self.folder), text)
+        for text in self.write():
+            self.assertNotIn(os.uname().nodename, text)
+            self.assertNotIn(str(self.folder), text)
 
     def test_nothing_is_written_without_the_results_or_markers(self):
         shutil.copytree(self.results, self.folder / "some")
         (self.folder / "some" / "rooms.adapt.json").unlink()
-        before = self.readme.read_text()
-        result = self.tables("write", "some", self.readme, "--commit", "0123abc")
+        before = self.readme.read_text(), self.page.read_text()
+        result = self.tables("write", "some", self.readme, self.page, "--commit", "0123abc")
         self.assertEqual(result.returncode, 2)
         self.assertIn("rooms.adapt", result.stderr)
-        self.assertEqual(self.readme.read_text(), before)
-        self.readme.write_text("no markers")
-        self.assertEqual(self.tables("write", self.results, self.readme, "--commit", "0123abc").returncode, 2)
+        self.assertEqual((self.readme.read_text(), self.page.read_text()), before)
+        self.page.write_text("no markers")
+        self.assertEqual(self.tables("write", self.results, self.readme, self.page, "--commit", "0123abc").returncode, 2)
+        self.assertEqual(self.readme.read_text(), before[0])
 
 
 if __name__ == "__main__":

@@ -20,7 +20,7 @@
 
 namespace foothold {
 
-/// How a forest is trained. (P) the paper's value, (T) tuned here; docs/forest-training.md holds the measurements.
+/// How a forest is trained. (P) the paper's value, (T) tuned here; docs/experiments/forests.md holds the measurements.
 struct ForestTrainingSettings {
   int num_trees = 5;                       ///< (P)
   int depth = 15;                          ///< (P)

@@ -21,7 +21,7 @@ namespace foothold {
 /// can not at all. So what is found upright is found at any roll, and a frame from nowhere costs up to num_rolls times as much.
 ///
 /// Colour is looked up at the pixel of the depth. Where a camera's colour is not registered to its depth, register_colour() warps it there;
-/// it is still found without, with poorer confidence (docs/results.md).
+/// it is still found without, with poorer confidence (docs/experiments/registered-colour.md).
 ///
 /// Determinism: the scene is a function of forest, settings and training frames; an answer is a function of the scene and the frame.
 /// Neither depends on threads or device, but for rounding in the pose.
