@@ -51,7 +51,7 @@ void check(const Options& options) {
   if (options.action != "time" && options.action != "compare" && options.action != "soak" && options.action != "pack") {
     throw InvalidSettings("got '" + options.action + "', expected time, compare, soak or pack; try --help");
   }
-  if (options.num_warm_up >= options.num_frames) {
+  if (options.action == "time" && options.num_warm_up >= options.num_frames) {
     throw InvalidSettings("--warm-up: got " + std::to_string(options.num_warm_up) + ", expected fewer than --frames");
   }
   if (options.action == "pack" && options.out.empty()) throw InvalidSettings("--out: missing, expected the file to write");

@@ -80,7 +80,9 @@ TEST_CASE(
 
 TEST_CASE("frame cost: asking for the size of the scene waits for the stream alone") {
   const Context context = test::context_on(Device::kCuda);
-  const ForestRelocaliser relocaliser(context, test::small_forest(), few_leaves(1));
+  FrameUploader uploader(context);
+  ForestRelocaliser relocaliser(context, test::small_forest(), few_leaves(1));
+  relocaliser.train(uploader.upload(test::office()[0].view()), *test::office()[0].world_from_camera);  // a place to remember it
   EmulatedCuda& device = EmulatedCuda::instance();
   device.reset_counts();
   REQUIRE(relocaliser.state_bytes() > 0);

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <vector>
 
-#include "cuda_backend.h"
 #include "foothold/base/error.h"
 #include "support/emulated_cuda/emulated_cuda.h"
 
@@ -116,6 +115,7 @@ void cuda_free(int, void* pointer) noexcept { EmulatedCuda::instance().free(poin
 
 void cuda_copy(const Memory& to_memory, void* to, const Memory& from_memory, const void* from, std::size_t num_bytes) {
   EmulatedCuda& cuda = EmulatedCuda::instance();
+  if (cuda.take_failure()) throw CudaError("cudaMemcpy: a failure that the test asked for");
   ++cuda.counts().num_device_waits;
   wait_for_device(from_memory);
   wait_for_device(to_memory);
