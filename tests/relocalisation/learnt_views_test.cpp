@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "examples/surface_pieces.h"
 #include "foothold/base/error.h"
 #include "support/catch.h"
 #include "support/checked_bytes.h"
@@ -23,10 +24,12 @@ TrainingExamples random_examples(Random& random, std::size_t count) {
   TrainingExamples examples(MemoryKind::kHost);
   examples.pixels.resize(count);
   examples.points.resize(count);
+  examples.surface_keys.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     examples.pixels[i] = {static_cast<std::int16_t>(i), 0, i % 10 == 9 ? 0.0F : 1.0F};
     examples.points[i] = {static_cast<std::int16_t>(static_cast<int>(random.below(2000)) - 1000),
                           static_cast<std::int16_t>(static_cast<int>(random.below(2000)) - 1000), 1000, 0};
+    examples.surface_keys[i] = surface_key(examples.pixels[i], examples.points[i], i);
   }
   return examples;
 }
@@ -60,6 +63,18 @@ TEST_CASE("LearntViews: of each piece of surface, as many examples are kept as a
       REQUIRE((kept.count(piece) != 0 ? kept.at(piece) : 0) == std::min(known + count, kPerView));
     }
   }
+}
+
+TEST_CASE(
+    "surface_key: numbers the pieces of a place from corner to corner, apart from what has no depth, above the example's own number") {
+  const SampledPixel pixel{0, 0, 1.0F};
+  REQUIRE(surface_of(surface_key(pixel, {-32768, -32768, -32768, 0}, 0)) == 0);
+  REQUIRE(surface_of(surface_key(pixel, {-32768, -32768, -32669, 0}, 0)) == 0);
+  REQUIRE(surface_of(surface_key(pixel, {-32768, -32768, -32668, 0}, 0)) == 1);
+  REQUIRE(surface_of(surface_key(pixel, {-32768, -32668, -32768, 0}, 0)) == kCellsPerAxis);
+  REQUIRE(surface_of(surface_key(pixel, {32767, 32767, 32767, 0}, 0)) == kNoSurface - 1);
+  REQUIRE(surface_of(surface_key({0, 0, 0.0F}, {}, 0)) == kNoSurface);
+  REQUIRE(example_of(surface_key(pixel, {32767, 32767, 32767, 0}, 307199)) == 307199);
 }
 
 TEST_CASE("LearntViews: who stays learns nothing more, and takes no more memory, and from elsewhere there is something to learn") {

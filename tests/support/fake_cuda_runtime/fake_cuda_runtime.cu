@@ -184,7 +184,10 @@ cudaError_t CUDARTAPI cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribut
 cudaError_t CUDARTAPI cudaFuncGetAttributes(cudaFuncAttributes* attributes, const void*) {
   RETURN_IF_FAILING()
   *attributes = {};
-  attributes->ptxVersion = attributes->binaryVersion = runtime().architecture;
+  for (const int architecture : foothold::test::compiled_architectures()) {
+    if (architecture <= runtime().architecture) attributes->ptxVersion = architecture;
+  }
+  attributes->binaryVersion = runtime().architecture;
   attributes->maxThreadsPerBlock = 1024;
   return cudaSuccess;
 }
@@ -222,9 +225,10 @@ cudaError_t CUDARTAPI cudaMemGetInfo(std::size_t* num_free, std::size_t* num_tot
   *num_total = 8000000000;
   return cudaSuccess;
 }
-cudaError_t CUDARTAPI cudaMemcpyAsync(void* to, const void* from, std::size_t num_bytes, cudaMemcpyKind, cudaStream_t) {
+cudaError_t CUDARTAPI cudaMemcpyAsync(void* to, const void* from, std::size_t num_bytes, cudaMemcpyKind kind, cudaStream_t) {
   RETURN_IF_FAILING()
   std::memmove(to, from, num_bytes);
+  if (kind == cudaMemcpyDeviceToHost && runtime().answer) runtime().answer(to, num_bytes);
   return cudaSuccess;
 }
 cudaError_t CUDARTAPI cudaMemsetAsync(void* pointer, int value, std::size_t num_bytes, cudaStream_t) {

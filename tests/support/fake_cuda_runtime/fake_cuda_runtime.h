@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -45,6 +46,8 @@ struct FakeCudaRuntime {
   int architecture = 90;
   int current_device = 0;
   int last_error = kCudaSuccess;
+  /// Fills what the host reads from a device, in place of the kernels that did nothing; the memory is zero otherwise.
+  std::function<void(void* host, std::size_t num_bytes)> answer;
   std::map<std::string, int> failures;  ///< what a function of this name, such as "cudaMalloc", returns instead of doing anything
 
   std::vector<FakeCudaLaunch> launches;
@@ -52,6 +55,9 @@ struct FakeCudaRuntime {
   std::map<std::string, int> calls;     ///< how often functions were called
   int num_set_devices = 0;
 };
+
+/// The architectures that nvcc compiled the program's kernels for, e.g. 75 and 90; ascending.
+std::vector<int> compiled_architectures();
 
 /// A stream of a device, as a host makes it. Never freed.
 void* fake_cuda_stream(int device);

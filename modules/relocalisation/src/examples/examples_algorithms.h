@@ -10,13 +10,10 @@ namespace foothold {
 
 /// Scratch memory of LearntViews::keep_new().
 struct KeepNewBuffers {
-  Array<std::uint64_t>& keys;
   Array<std::uint64_t>& sort_buffer;
   Array<std::uint32_t>& kept;
   Array<std::uint32_t>& counts;
-  Array<std::uint32_t>& new_entries;
   Array<std::uint32_t>& kept_before;
-  Array<std::uint32_t>& new_before;
   Array<std::uint32_t>& totals;
 };
 
@@ -56,18 +53,17 @@ void ExampleAlgorithms<Executor>::keep_new(const Context& context, const ViewTab
                                            const KeepNewBuffers& buffers) {
   const Executor executor(context);
   const std::size_t num_examples = from.pixels.size();
-  executor.for_each(num_examples, MakeSurfaceKey{from.pixels.data(), from.points.data(), buffers.keys.data()});
-  executor.sort(Span<std::uint64_t>(buffers.keys), buffers.sort_buffer, kExampleBits, kExampleBits + kSurfaceBits);
-  const Span<const std::uint64_t> keys(buffers.keys);
-  executor.for_each(num_examples, KeepNewExamples{keys, table, view_of, examples_per_view, buffers.kept.data(), buffers.counts.data(),
-                                                  buffers.new_entries.data()});
-  executor.for_each(num_examples, SetCounts{keys, table, view_of, buffers.counts.data()});
-  executor.exclusive_scan(Span<const std::uint32_t>(buffers.kept), Span<std::uint32_t>(buffers.kept_before));
-  executor.exclusive_scan(Span<const std::uint32_t>(buffers.new_entries), Span<std::uint32_t>(buffers.new_before));
-  executor.for_each(num_examples, PackExamples{buffers.kept.data(), buffers.kept_before.data(), from.pixels.data(), from.points.data(),
-                                               to.pixels.data(), to.points.data()});
-  executor.for_each(1,
-                    TakeTotals{buffers.kept_before.data() + num_examples, buffers.new_before.data() + num_examples, buffers.totals.data()});
+  std::uint32_t* const num_kept = buffers.totals.data();
+  std::uint32_t* const num_entries = num_kept + 1;
+  executor.sort(Span<std::uint64_t>(to.surface_keys), buffers.sort_buffer, kExampleBits, kExampleBits + kSurfaceBits);
+  const Span<const std::uint64_t> keys(to.surface_keys);
+  const Span<const std::uint32_t> kept(buffers.kept);
+  executor.for_each(num_examples,
+                    KeepNewExamples{keys, table, view_of, examples_per_view, buffers.kept.data(), buffers.counts.data(), num_entries});
+  executor.exclusive_scan(kept, Span<std::uint32_t>(buffers.kept_before));
+  const PackExamples pack{kept,    buffers.kept_before.data(), from.pixels.data(), from.points.data(), to.pixels.data(), to.points.data(),
+                          num_kept};
+  executor.for_each(num_examples, EnterExamples{pack, keys, table, view_of, buffers.counts.data()});
 }
 
 }  // namespace foothold

@@ -6,6 +6,7 @@
 
 #include "examples/examples_algorithms.h"
 #include "foothold/base/checked_stream.h"
+#include "foothold/base/contract.h"
 #include "foothold/base/exec/dispatch.h"
 
 namespace foothold {
@@ -23,16 +24,9 @@ constexpr std::uint64_t kMostSlotsPerEntry = 16;
 }  // namespace
 
 LearntViews::LearntViews(const Memory& memory)
-    : slots_(memory),
-      keys_(memory),
-      sort_buffer_(memory),
-      kept_(memory),
-      counts_(memory),
-      new_entries_(memory),
-      kept_before_(memory),
-      new_before_(memory),
-      totals_(memory, 2),
-      unfiltered_(memory) {}
+    : slots_(memory), totals_(memory, 2), sort_buffer_(memory), kept_(memory), counts_(memory), kept_before_(memory), unfiltered_(memory) {
+  totals_.clear_to_zero();
+}
 
 void LearntViews::make_room(const Context& context, std::size_t num_new) {
   const std::size_t wanted = (num_entries_ + num_new) * 3 / 2;
@@ -55,27 +49,26 @@ void LearntViews::set_num_slots(const Context& context, std::size_t num_slots) {
 
 void LearntViews::keep_new(const Context& context, const Eigen::Vector3f& camera_scene, int examples_per_view, TrainingExamples& examples) {
   const std::size_t num_examples = examples.pixels.size();
+  FOOTHOLD_EXPECTS(examples.surface_keys.size() == num_examples);
+  if (num_examples == 0) return;
   make_room(context, num_examples);
-  keys_.resize(num_examples);
   kept_.resize(num_examples);
   counts_.resize(num_examples);
-  new_entries_.resize(num_examples);
   kept_before_.resize(num_examples + 1);
-  new_before_.resize(num_examples + 1);
   unfiltered_.pixels.swap(examples.pixels);
   unfiltered_.points.swap(examples.points);
   examples.pixels.resize(num_examples);
   examples.points.resize(num_examples);
   const Eigen::Vector3f camera_mm = camera_scene * 1000.0F;
   const ViewpointOf view_of{{camera_mm.x(), camera_mm.y(), camera_mm.z()}};
-  const KeepNewBuffers buffers{keys_, sort_buffer_, kept_, counts_, new_entries_, kept_before_, new_before_, totals_};
+  const KeepNewBuffers buffers{sort_buffer_, kept_, counts_, kept_before_, totals_};
   dispatch(context, [&](auto on) {
     ExampleAlgorithms<typename decltype(on)::Executor>::keep_new(context, ViewTable{slots_.data(), slots_.size() - 1}, view_of,
                                                                  static_cast<std::uint32_t>(examples_per_view), unfiltered_, examples,
                                                                  buffers);
   });
   const std::vector<std::uint32_t> totals = totals_.to_host(context);
-  num_entries_ += totals[1];
+  num_entries_ = totals[1];
   examples.pixels.resize(totals[0]);
   examples.points.resize(totals[0]);
 }
@@ -110,6 +103,7 @@ void LearntViews::load(const Context& context, CheckedReader& reader) {
   });
   context.synchronise();
   loaded.num_entries_ = entries.size();
+  loaded.totals_.assign(std::vector<std::uint32_t>{0, static_cast<std::uint32_t>(entries.size())});
   *this = std::move(loaded);
 }
 

@@ -24,6 +24,7 @@ class LearntViews {
   explicit LearntViews(const Memory& memory);
 
   /// Keeps the examples that have depth and show what was not learnt often enough from there, in their order, and counts them.
+  /// @pre The examples have surface keys.
   /// @param camera_scene  position of the camera in the frame of the examples' points [m].
   /// @param examples_per_view  how often is enough; 0 if it never is, and nothing is counted. [0, 255]
   void keep_new(const Context& context, const Eigen::Vector3f& camera_scene, int examples_per_view, TrainingExamples& examples);
@@ -40,15 +41,12 @@ class LearntViews {
 
   Array<std::uint64_t> slots_;     ///< a hash table, see learnt_views_kernels.h; a power of two, or empty
   std::uint64_t num_entries_ = 0;  ///< slots in use
+  Array<std::uint32_t> totals_;    ///< examples that the last frame kept, and slots in use
   // Scratch of keep_new().
-  Array<std::uint64_t> keys_;
   Array<std::uint64_t> sort_buffer_;
   Array<std::uint32_t> kept_;
   Array<std::uint32_t> counts_;
-  Array<std::uint32_t> new_entries_;
   Array<std::uint32_t> kept_before_;
-  Array<std::uint32_t> new_before_;
-  Array<std::uint32_t> totals_;  ///< examples kept, entries new to the table
   TrainingExamples unfiltered_;
 };
 

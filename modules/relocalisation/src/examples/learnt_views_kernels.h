@@ -6,39 +6,15 @@
 #include <cmath>
 
 #include "examples/learnt_views.h"
+#include "examples/surface_pieces.h"
 #include "foothold/base/exec/atomics.h"
 #include "foothold/base/random.h"
 
 namespace foothold {
 
-inline constexpr int kSurfaceCellMm = 100;  ///< edge of a piece of surface (T)
-inline constexpr int kDirectionBins = 8;    ///< of a viewpoint, along an edge of a cube around the piece of surface (T)
-inline constexpr int kSurfaceBits = 33;     ///< of a surface key, 11 an axis
-inline constexpr int kExampleBits = 24;     ///< of an example's number, below its surface key in a sort key
-inline constexpr int kCountBits = 8;        ///< of a table's slot; the view's key is above
+inline constexpr int kDirectionBins = 8;  ///< of a viewpoint, along an edge of a cube around the piece of surface (T)
+inline constexpr int kCountBits = 8;      ///< of a table's slot; the view's key is above
 inline constexpr std::uint64_t kEmptySlot = ~std::uint64_t{0};
-inline constexpr std::uint64_t kNoSurface = (std::uint64_t{1} << kSurfaceBits) - 1;
-
-/// Sort key of an example: its piece of surface above, its number below.
-struct MakeSurfaceKey {
-  const SampledPixel* pixels;
-  const ReservoirPoint* points;
-  std::uint64_t* keys;
-
-  FOOTHOLD_HD void operator()(std::size_t i) const {
-    const std::uint64_t surface =
-        pixels[i].depth_m > 0.0F ? (cell(points[i].x_mm) << 22U) | (cell(points[i].y_mm) << 11U) | cell(points[i].z_mm) : kNoSurface;
-    keys[i] = (surface << kExampleBits) | i;
-  }
-
- private:
-  FOOTHOLD_HD std::uint64_t cell(std::int16_t mm) const {
-    return static_cast<std::uint64_t>((static_cast<int>(mm) + 32768) / kSurfaceCellMm);
-  }
-};
-
-FOOTHOLD_HD inline std::uint64_t surface_of(std::uint64_t key) { return key >> kExampleBits; }
-FOOTHOLD_HD inline std::size_t example_of(std::uint64_t key) { return key & ((std::uint64_t{1} << kExampleBits) - 1); }
 
 /// A hash table from views to counts: linear probing, slots hold the view above the count.
 struct ViewTable {
@@ -70,10 +46,14 @@ struct ViewpointOf {
   float camera_mm[3];
 
   FOOTHOLD_HD std::uint64_t operator()(std::uint64_t surface) const {
+    const auto number = static_cast<std::uint32_t>(surface);
+    const std::uint32_t cells[3] = {number / (kCellsPerAxis * kCellsPerAxis), number / kCellsPerAxis % kCellsPerAxis,
+                                    number % kCellsPerAxis};
+    std::uint64_t view = 0;
     float d[3];
     for (int k = 0; k < 3; ++k) {
-      const auto cell = static_cast<int>((surface >> (22 - 11 * k)) & 2047U);
-      d[k] = camera_mm[k] - (static_cast<float>(cell * kSurfaceCellMm + kSurfaceCellMm / 2) - 32768.0F);
+      view = (view << 11U) | cells[k];
+      d[k] = camera_mm[k] - cell_centre_mm(cells[k]);
     }
     int axis = std::fabs(d[1]) > std::fabs(d[0]) ? 1 : 0;
     if (std::fabs(d[2]) > std::fabs(d[axis])) axis = 2;
@@ -84,7 +64,7 @@ struct ViewpointOf {
     std::uint64_t distance = 0;
     const float distance2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     for (float limit = 250.0F * 250.0F; distance < 15 && distance2 > limit; limit *= 2.0F) ++distance;
-    return (((surface * 6 + face) * 16 + a) * 16 + b) * 16 + distance;
+    return (((view * 6 + face) * 16 + a) * 16 + b) * 16 + distance;
   }
 
  private:
@@ -102,67 +82,61 @@ struct KeepNewExamples {
   std::uint32_t examples_per_view;  ///< 0 for no limit
   std::uint32_t* kept;              ///< per example: 1 if it is
   std::uint32_t* counts;            ///< per sort key: what the table is to hold, 0 where nothing changes
-  std::uint32_t* new_entries;       ///< per sort key: 1 if the table does not hold the view yet
+  std::uint32_t* num_entries;       ///< of the table; grows by the views that it does not hold yet
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
     counts[i] = 0;
-    new_entries[i] = 0;
     const std::uint64_t surface = surface_of(keys[i]);
     if (surface == kNoSurface) kept[example_of(keys[i])] = 0;
     if (surface == kNoSurface || (i > 0 && surface_of(keys[i - 1]) == surface)) return;
     std::size_t end = i + 1;
     while (end < keys.size() && surface_of(keys[end]) == surface) ++end;
-    const std::size_t offered = end - i;
+    const auto offered = static_cast<std::uint32_t>(end - i);  // times a count still fits
     if (examples_per_view == 0) {
       for (std::size_t k = i; k < end; ++k) kept[example_of(keys[k])] = 1;
       return;
     }
     const std::uint32_t known = table.count(view_of(surface));
-    const std::size_t missing = known < examples_per_view ? examples_per_view - known : 0;
-    const std::size_t wanted = offered < missing ? offered : missing;
-    for (std::size_t k = 0; k < offered; ++k) kept[example_of(keys[i + k])] = (k + 1) * wanted / offered > k * wanted / offered ? 1 : 0;
+    const std::uint32_t missing = known < examples_per_view ? examples_per_view - known : 0;
+    const std::uint32_t wanted = offered < missing ? offered : missing;
+    for (std::uint32_t k = 0; k < offered; ++k) kept[example_of(keys[i + k])] = (k + 1) * wanted / offered > k * wanted / offered ? 1 : 0;
     if (wanted == 0) return;
-    counts[i] = known + static_cast<std::uint32_t>(wanted);
-    new_entries[i] = known == 0 ? 1 : 0;
+    counts[i] = known + wanted;
+    if (known == 0) atomic_add(num_entries, 1);
   }
 };
 
-/// Writes the counts, once nobody reads the table any more.
-struct SetCounts {
-  Span<const std::uint64_t> keys;
-  ViewTable table;
-  ViewpointOf view_of;
-  const std::uint32_t* counts;
+static_assert(kExampleBits + kCountBits <= 32, "a number of examples times a count fits into 32 bits");
 
-  FOOTHOLD_HD void operator()(std::size_t i) const {
-    if (counts[i] != 0) table.set(view_of(surface_of(keys[i])), counts[i]);
-  }
-};
-
-/// Moves the kept examples to the front.
+/// Moves the kept examples to the front and counts them.
 struct PackExamples {
-  const std::uint32_t* kept;
+  Span<const std::uint32_t> kept;
   const std::uint32_t* offsets;
   const SampledPixel* pixels_from;
   const ReservoirPoint* points_from;
   SampledPixel* pixels;
   ReservoirPoint* points;
+  std::uint32_t* num_kept;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
+    if (i + 1 == kept.size()) *num_kept = offsets[i + 1];
     if (kept[i] == 0) return;
     pixels[offsets[i]] = pixels_from[i];
     points[offsets[i]] = points_from[i];
   }
 };
 
-/// Puts the totals of the two scans side by side, so that the host waits for them once.
-struct TakeTotals {
-  const std::uint32_t* num_kept;
-  const std::uint32_t* num_new;
-  std::uint32_t* totals;
-  FOOTHOLD_HD void operator()(std::size_t) const {
-    totals[0] = *num_kept;
-    totals[1] = *num_new;
+/// Enters what is kept: examples in front, and their counts in the table, which nobody reads any more.
+struct EnterExamples {
+  PackExamples pack;
+  Span<const std::uint64_t> keys;
+  ViewTable table;
+  ViewpointOf view_of;
+  const std::uint32_t* counts;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    pack(i);
+    if (counts[i] != 0) table.set(view_of(surface_of(keys[i])), counts[i]);
   }
 };
 

@@ -19,8 +19,16 @@ void sample_examples(const Context& context, const Frame& frame, const Reservoir
   const std::size_t num_cells = static_cast<std::size_t>(grid_width) * static_cast<std::size_t>(grid_height);
   examples.pixels.resize(num_cells);
   examples.points.resize(num_cells);
-  const SampleTrainingPixel body{
-      frame, scene_from_camera, grid_width, spacing, settings.jitter, frame_seed, examples.pixels.data(), examples.points.data()};
+  examples.surface_keys.resize(num_cells);
+  const SampleTrainingPixel body{frame,
+                                 scene_from_camera,
+                                 grid_width,
+                                 spacing,
+                                 settings.jitter,
+                                 frame_seed,
+                                 examples.pixels.data(),
+                                 examples.points.data(),
+                                 examples.surface_keys.data()};
   dispatch(context, [&](auto on) { ExampleAlgorithms<typename decltype(on)::Executor>::sample(context, body, num_cells); });
 }
 

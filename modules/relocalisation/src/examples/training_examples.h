@@ -24,13 +24,14 @@ static_assert(sizeof(ReservoirPoint) == 8, "loaded as one word");
 
 /// Examples of one frame, in grid order.
 struct TrainingExamples {
-  explicit TrainingExamples(const Memory& memory) : pixels(memory), points(memory), leaves(memory) {}
+  explicit TrainingExamples(const Memory& memory) : pixels(memory), points(memory), surface_keys(memory), leaves(memory) {}
   Array<SampledPixel> pixels;
   Array<ReservoirPoint> points;
-  Array<std::uint32_t> leaves;  ///< num_trees x num_pixels
+  Array<std::uint64_t> surface_keys;  ///< see surface_pieces.h; LearntViews::keep_new() uses them up
+  Array<std::uint32_t> leaves;        ///< num_trees x num_pixels
 };
 
-/// Picks a pixel of each grid cell with its point, still without colour; depth 0 where there is none.
+/// Picks a pixel of each grid cell with its point and surface key, still without colour; depth 0 where there is none.
 ///
 /// @param scene_from_camera  pose in the frame whose origin is the place's.
 /// @param frame_seed         chooses the pixels when the settings ask for jitter.

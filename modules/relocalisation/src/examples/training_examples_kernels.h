@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "examples/surface_pieces.h"
 #include "examples/training_examples.h"
 #include "features/feature_image_kernels.h"
 #include "foothold/base/random.h"
@@ -26,7 +27,7 @@ FOOTHOLD_HD inline int red_of(std::uint16_t rgb565) { return ((rgb565 >> 11) & 3
 FOOTHOLD_HD inline int green_of(std::uint16_t rgb565) { return ((rgb565 >> 5) & 63) * 255 / 63; }
 FOOTHOLD_HD inline int blue_of(std::uint16_t rgb565) { return (rgb565 & 31) * 255 / 31; }
 
-/// One pixel of each grid cell, with its scene point.
+/// One pixel of each grid cell, with its scene point and surface key.
 struct SampleTrainingPixel {
   Frame frame;
   SE3 scene_from_camera;
@@ -36,11 +37,18 @@ struct SampleTrainingPixel {
   std::uint64_t frame_seed;
   SampledPixel* pixels;
   ReservoirPoint* points;
+  std::uint64_t* surface_keys;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
+    take(i);
+    surface_keys[i] = surface_key(pixels[i], points[i], i);
+  }
+
+ private:
+  FOOTHOLD_HD void take(std::size_t i) const {
     Random random(frame_seed, i);
-    const int cell_u = static_cast<int>(i % static_cast<std::size_t>(grid_width)) * spacing;
-    const int cell_v = static_cast<int>(i / static_cast<std::size_t>(grid_width)) * spacing;
+    const int cell_u = static_cast<int>(i) % grid_width * spacing;
+    const int cell_v = static_cast<int>(i) / grid_width * spacing;
     const int u =
         clamp_index(cell_u + (jitter ? static_cast<int>(random.below(static_cast<std::uint32_t>(spacing))) : 0), frame.depth.width);
     const int v =
@@ -61,7 +69,7 @@ struct SampleTrainingPixel {
   }
 };
 
-static_assert(sizeof(Frame) == 152 && sizeof(SampleTrainingPixel) == 240, "made by the host's compiler, read by nvcc's code");
+static_assert(sizeof(Frame) == 152 && sizeof(SampleTrainingPixel) == 248, "made by the host's compiler, read by nvcc's code");
 
 /// The colour of an example's pixel.
 struct ColourExample {

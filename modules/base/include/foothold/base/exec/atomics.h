@@ -22,6 +22,15 @@ FOOTHOLD_HD inline std::uint64_t atomic_compare_exchange(std::uint64_t* address,
 #endif
 }
 
+/// Adds to a counter.
+FOOTHOLD_HD inline void atomic_add(std::uint32_t* address, std::uint32_t value) {
+#if defined(__CUDA_ARCH__)
+  atomicAdd(address, value);
+#else
+  __atomic_fetch_add(address, value, __ATOMIC_RELAXED);
+#endif
+}
+
 /// Lowers a value to at most `value`.
 FOOTHOLD_HD inline void atomic_lower(std::int32_t* address, std::int32_t value) {
 #if defined(__CUDA_ARCH__)
