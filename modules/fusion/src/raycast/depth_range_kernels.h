@@ -6,9 +6,9 @@
 #include <cstring>
 
 #include "foothold/base/camera.h"
+#include "foothold/base/exec/atomics.h"
 #include "foothold/base/se3.h"
 #include "tsdf/block_extent.h"
-#include "tsdf/device_atomics.h"
 #include "tsdf/tsdf_view.h"
 
 namespace foothold {

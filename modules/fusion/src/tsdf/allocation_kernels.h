@@ -4,9 +4,9 @@
 #pragma once
 
 #include "foothold/base/camera.h"
+#include "foothold/base/exec/atomics.h"
 #include "foothold/base/se3.h"
 #include "foothold/fusion/tsdf_volume.h"
-#include "tsdf/device_atomics.h"
 #include "tsdf/tsdf_view.h"
 
 namespace foothold {
