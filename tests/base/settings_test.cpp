@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Foothold authors
 #include "foothold/base/settings.h"
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -145,6 +146,32 @@ TEST_CASE("validate_settings: names the first field out of range") {
   REQUIRE(test::contains(message, "weight"));
   REQUIRE(test::contains(message, "1.5"));
   REQUIRE(test::contains(message, "[0, 1]"));
+}
+
+/// Limits that single precision rounds up (0.1) and down (0.7).
+struct LimitedSettings {
+  float above = 0.1F;
+  float below = 0.7F;
+
+  template <class Visitor>
+  static void fields(Visitor& v) {
+    v(&LimitedSettings::above, "above", "At most a number whose nearest float is greater.", Range{0, 0.1});
+    v(&LimitedSettings::below, "below", "At least a number whose nearest float is less.", Range{0.7, 1});
+  }
+};
+
+TEST_CASE("validate_settings: a float at its very limit is in range, and the next one beyond is not") {
+  LimitedSettings settings;
+  REQUIRE(static_cast<double>(settings.above) > 0.1);
+  REQUIRE(static_cast<double>(settings.below) < 0.7);
+  REQUIRE_NOTHROW(validate_settings(settings));
+  for (const SettingDescription& description : describe_settings(settings)) assign_setting(settings, description.path, description.value);
+  REQUIRE_NOTHROW(validate_settings(settings));
+  settings.above = std::nextafter(0.1F, 1.0F);
+  REQUIRE(test::contains(test::error_message<InvalidSettings>([&] { validate_settings(settings); }), "above: got 0.1000"));
+  settings = {};
+  settings.below = std::nextafter(0.7F, 0.0F);
+  REQUIRE(test::contains(test::error_message<InvalidSettings>([&] { validate_settings(settings); }), "below: got 0.6999"));
 }
 
 }  // namespace

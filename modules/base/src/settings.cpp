@@ -63,10 +63,17 @@ bool parse_bool(const std::string& path, const std::string& text) {
   throw InvalidSettings("setting " + path + ": got '" + printable(text, kMaxQuoted) + "', expected true or false");
 }
 
-void check_range(const std::string& path, double value, const Range& range) {
-  if (std::isfinite(value) && value >= range.low && value <= range.high) return;
+namespace {
+/// Compares in the number's own precision, and prints it so.
+template <class T>
+void check_in_range(const std::string& path, T value, const Range& range) {
+  if (std::isfinite(value) && value >= static_cast<T>(range.low) && value <= static_cast<T>(range.high)) return;
   throw InvalidSettings("setting " + path + ": got " + to_text(value) + ", expected a value in " + range_text(range));
 }
+}  // namespace
+
+void check_range(const std::string& path, double value, const Range& range) { check_in_range(path, value, range); }
+void check_range(const std::string& path, float value, const Range& range) { check_in_range(path, value, range); }
 
 // std::from_chars wants the whole text to be the number, and neither skips blanks nor heeds the host's locale.
 double parse_number(const std::string& path, const std::string& text, const Range& range, bool integer) {

@@ -49,6 +49,8 @@ double parse_number(const std::string& path, const std::string& text, const Rang
 /// Parses a number from 0 to `max` completely. @throws InvalidSettings
 unsigned long long parse_unsigned(const std::string& path, const std::string& text, unsigned long long max);
 void check_range(const std::string& path, double value, const Range& range);
+/// The same in single precision, for 0.1F is greater than 0.1.
+void check_range(const std::string& path, float value, const Range& range);
 [[noreturn]] void throw_unknown_setting(const std::string& path, const std::vector<SettingDescription>& known);
 
 template <class T>
@@ -141,7 +143,11 @@ template <class Settings>
 void validate_settings(const Settings& settings) {
   detail::walk_fields(settings, [](const std::string& path, const auto& value, const char*, const Range& range) {
     using T = std::decay_t<decltype(value)>;
-    if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) detail::check_range(path, static_cast<double>(value), range);
+    if constexpr (std::is_same_v<T, float>) {
+      detail::check_range(path, value, range);
+    } else if constexpr (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) {
+      detail::check_range(path, static_cast<double>(value), range);
+    }
   });
 }
 
