@@ -3,36 +3,32 @@
 #include "mapping_relocaliser.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "foothold/base/error.h"
-#include "foothold/fusion/tracking_quality.h"
 
 namespace foothold::benchmark {
 
 MappingRelocaliser::MappingRelocaliser(const Context& context, std::unique_ptr<Relocaliser> relocaliser, const TsdfSettings& map,
                                        const PoseRefinerSettings& refiner, Refinement refinement)
-    : relocaliser_(std::move(relocaliser)), volume_(context, map), refiner_(context, refiner, map.depth_range()), refinement_(refinement) {
+    : RelocaliserDecorator(std::move(relocaliser)),
+      volume_(context, map),
+      refinement_(refinement),
+      refining_(inner(), volume_, refiner, refinement) {
   if (context.memory() != MemoryKind::kHost) throw InvalidSettings("--device: got cuda, expected cpu for methods that refine on a map");
 }
 
 void MappingRelocaliser::train(const Frame& frame, const SE3& world_from_camera) {
-  relocaliser_->train(frame, world_from_camera);
+  RelocaliserDecorator::train(frame, world_from_camera);
   volume_.integrate(frame, world_from_camera);
 }
 
 std::vector<PoseEstimate> MappingRelocaliser::relocalise(const Frame& frame) {
-  std::vector<PoseEstimate> estimates = relocaliser_->relocalise(frame);
-  if (estimates.empty()) return estimates;
-  if (refinement_ == Refinement::kFirst) {
-    const RefinedPose refined = refiner_.refine_one(frame, volume_, estimates.front().world_from_camera);
-    if (grade_tracking(refined.measures).quality != TrackingQuality::kFailed) {
-      estimates.front().world_from_camera = refined.world_from_camera;
-    }
-    return estimates;
-  }
+  std::vector<PoseEstimate> estimates = refining_.relocalise(frame);
+  if (refinement_ == Refinement::kFirst) return estimates;
   std::vector<PoseEstimate> ranked;
   const float least_accepted = acceptance_threshold();
-  for (const RefinedPose& refined : refiner_.refine(frame, volume_, estimates)) {
+  for (const RefinedPose& refined : refining_.last_refined()) {
     ranked.push_back(
         {refined.world_from_camera, refined.accepted ? refined.probability : std::min(refined.probability, 0.99F * least_accepted)});
   }
@@ -40,12 +36,8 @@ std::vector<PoseEstimate> MappingRelocaliser::relocalise(const Frame& frame) {
 }
 
 void MappingRelocaliser::reset() {
-  relocaliser_->reset();
+  RelocaliserDecorator::reset();
   volume_.reset();
-}
-
-float MappingRelocaliser::acceptance_threshold() const {
-  return refinement_ == Refinement::kFirst ? relocaliser_->acceptance_threshold() : refiner_.acceptance_probability();
 }
 
 }  // namespace foothold::benchmark

@@ -6,19 +6,12 @@
 #include <memory>
 #include <vector>
 
-#include "foothold/api/relocaliser.h"
-#include "foothold/fusion/pose_refiner.h"
+#include "foothold/fusion/refining_relocaliser.h"
 
 namespace foothold::benchmark {
 
-/// What is refined.
-enum class Refinement {
-  kFirst,  ///< the wrapped relocaliser's first estimate, as the paper's "+ ICP"; its confidence stays
-  kRanked  ///< all of them; the order and the confidence are the acceptance classifier's
-};
-
 /// Fuses the frames that it learns with their poses. On the host.
-class MappingRelocaliser : public Relocaliser {
+class MappingRelocaliser : public RelocaliserDecorator {
  public:
   MappingRelocaliser(const Context& context, std::unique_ptr<Relocaliser> relocaliser, const TsdfSettings& map,
                      const PoseRefinerSettings& refiner, Refinement refinement);
@@ -26,17 +19,13 @@ class MappingRelocaliser : public Relocaliser {
   void train(const Frame& frame, const SE3& world_from_camera) override;
   /// With kRanked: the candidates by falling score. What was not accepted stays below the threshold, whatever its probability.
   std::vector<PoseEstimate> relocalise(const Frame& frame) override;
-  void update() override { relocaliser_->update(); }
   void reset() override;
-  /// The map is the reconstruction's and not counted.
-  std::size_t state_bytes() const override { return relocaliser_->state_bytes(); }
-  float acceptance_threshold() const override;
+  float acceptance_threshold() const override { return refining_.acceptance_threshold(); }
 
  private:
-  std::unique_ptr<Relocaliser> relocaliser_;
-  TsdfVolume volume_;
-  PoseRefiner refiner_;
+  TsdfVolume volume_;  // the reconstruction's, so that its memory is not counted
   Refinement refinement_;
+  RefiningRelocaliser refining_;
 };
 
 }  // namespace foothold::benchmark

@@ -7,12 +7,12 @@
 namespace foothold::benchmark {
 
 UploadingRelocaliser::UploadingRelocaliser(const Context& context, std::unique_ptr<Relocaliser> relocaliser)
-    : relocaliser_(std::move(relocaliser)), uploader_(context) {}
+    : RelocaliserDecorator(std::move(relocaliser)), uploader_(context) {}
 
 void UploadingRelocaliser::train(const Frame& frame, const SE3& world_from_camera) {
-  relocaliser_->train(uploader_.upload(frame), world_from_camera);
+  inner().train(uploader_.upload(frame), world_from_camera);
 }
 
-std::vector<PoseEstimate> UploadingRelocaliser::relocalise(const Frame& frame) { return relocaliser_->relocalise(uploader_.upload(frame)); }
+std::vector<PoseEstimate> UploadingRelocaliser::relocalise(const Frame& frame) { return inner().relocalise(uploader_.upload(frame)); }
 
 }  // namespace foothold::benchmark

@@ -6,27 +6,22 @@
 #include <memory>
 #include <vector>
 
-#include "foothold/api/relocaliser.h"
+#include "foothold/api/relocaliser_decorator.h"
 #include "foothold/base/context.h"
 #include "foothold/frames/frame_uploader.h"
 
 namespace foothold::benchmark {
 
 /// Copies every frame to the memory of a context before it hands it on: the price of recordings, traced as stage "upload".
-class UploadingRelocaliser : public Relocaliser {
+class UploadingRelocaliser : public RelocaliserDecorator {
  public:
   /// @pre The relocaliser works in the context's memory.
   UploadingRelocaliser(const Context& context, std::unique_ptr<Relocaliser> relocaliser);
 
   void train(const Frame& frame, const SE3& world_from_camera) override;
   std::vector<PoseEstimate> relocalise(const Frame& frame) override;
-  void update() override { relocaliser_->update(); }
-  void reset() override { relocaliser_->reset(); }
-  std::size_t state_bytes() const override { return relocaliser_->state_bytes(); }
-  float acceptance_threshold() const override { return relocaliser_->acceptance_threshold(); }
 
  private:
-  std::unique_ptr<Relocaliser> relocaliser_;
   FrameUploader uploader_;
 };
 

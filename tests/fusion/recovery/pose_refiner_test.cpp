@@ -274,5 +274,34 @@ TEST_CASE("RefiningRelocaliser: gives the one accepted pose or nothing, and leav
   REQUIRE(relocaliser.state_bytes() == 123);
 }
 
+TEST_CASE("RefiningRelocaliser: as the paper has it, aligns the first proposal alone and leaves every confidence as it is") {
+  FakeRelocaliser inner;
+  RefiningRelocaliser relocaliser(inner, office_map(), {}, Refinement::kFirst);
+  const RgbdFrame& frame = test::office().frame(kSeen + 1);
+  Random random = test::test_random();
+  const SE3 elsewhere = test::office().pose(0);
+  const SE3 near_by = *frame.world_from_camera * test::random_motion(random, 0.03F, 0.03F);
+  inner.proposals = {{near_by, 0.6F}, {elsewhere, 0.5F}};
+  std::vector<PoseEstimate> found = relocaliser.relocalise(frame.view());
+  REQUIRE(found.size() == 2);
+  REQUIRE(translation_distance_m(found[0].world_from_camera, *frame.world_from_camera) < kFineM);
+  REQUIRE(found[0].confidence == 0.6F);
+  REQUIRE(found[1].world_from_camera.translation == elsewhere.translation);
+  REQUIRE(found[1].confidence == 0.5F);
+  REQUIRE(relocaliser.last_refined().size() == 1);
+  REQUIRE(relocaliser.acceptance_threshold() == 0.1F);
+
+  SE3 outside = elsewhere;  // where there is nothing to align with
+  outside.translation.x() += 100.0F;
+  inner.proposals = {{outside, 0.6F}};
+  found = relocaliser.relocalise(frame.view());
+  REQUIRE(found.size() == 1);
+  REQUIRE(found[0].world_from_camera.translation == outside.translation);
+
+  inner.proposals.clear();
+  REQUIRE(relocaliser.relocalise(frame.view()).empty());
+  REQUIRE(relocaliser.last_refined().empty());
+}
+
 }  // namespace
 }  // namespace foothold

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <iosfwd>
 #include <vector>
 
 #include "foothold/api/frame.h"
@@ -61,21 +60,6 @@ class Relocaliser {
   Relocaliser() = default;
   Relocaliser(const Relocaliser&) = default;
   Relocaliser& operator=(const Relocaliser&) = default;
-};
-
-/// Whatever can write its scene to a stream and read it back.
-class Persistent {
- public:
-  virtual ~Persistent() = default;
-  /// @throws FileError if writing fails.
-  virtual void save(std::ostream& stream) const = 0;
-  /// Replaces the scene. On failure the former scene stays. @throws FileError for a damaged stream or one of another kind or version.
-  virtual void load(std::istream& stream) = 0;
-
- protected:
-  Persistent() = default;
-  Persistent(const Persistent&) = default;
-  Persistent& operator=(const Persistent&) = default;
 };
 
 }  // namespace foothold

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "foothold/api/relocaliser.h"
+#include "foothold/base/persistent.h"
 #include "foothold/fusion/pose_refiner.h"
 #include "foothold/fusion/recovery_policy.h"
 
@@ -71,8 +73,7 @@ struct FusionFrameResult {
 class FusionPipeline : public Persistent {
  public:
   /// @param relocaliser  Trained on good frames and asked when lost; nullptr for tracking alone. Must outlive the pipeline. Its proposals
-  /// are
-  ///                     refined here: pass the bare relocaliser, not a RefiningRelocaliser.
+  ///                     are refined here: pass the bare relocaliser, not a RefiningRelocaliser.
   /// @throws InvalidSettings
   FusionPipeline(const Context& context, const FusionSettings& settings, Relocaliser* relocaliser);
   /// Copies the map, the pose and the state of recovery, to go on with another relocaliser.

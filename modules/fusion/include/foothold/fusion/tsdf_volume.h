@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "foothold/api/frame.h"
-#include "foothold/api/relocaliser.h"
 #include "foothold/base/array.h"
 #include "foothold/base/context.h"
+#include "foothold/base/persistent.h"
 #include "foothold/base/platform.h"
 #include "foothold/base/settings.h"
 

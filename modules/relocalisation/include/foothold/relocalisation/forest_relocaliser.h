@@ -8,6 +8,7 @@
 
 #include "foothold/api/relocaliser.h"
 #include "foothold/base/context.h"
+#include "foothold/base/persistent.h"
 #include "foothold/relocalisation/explanation.h"
 #include "foothold/relocalisation/forest.h"
 #include "foothold/relocalisation/settings.h"

@@ -10,6 +10,7 @@
 
 #include "foothold/api/relocaliser.h"
 #include "foothold/base/context.h"
+#include "foothold/base/persistent.h"
 #include "foothold/base/settings.h"
 
 namespace foothold {
