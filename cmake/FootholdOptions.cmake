@@ -76,12 +76,16 @@ if(FOOTHOLD_HAS_CUDA)
   set(CMAKE_CUDA_STANDARD_REQUIRED ON)
 endif()
 
+# Settings and scenes in files, and module reconstruction, which saves them
+find_package(nlohmann_json QUIET)
+set(FOOTHOLD_HAS_FILES ${nlohmann_json_FOUND})
+set(FOOTHOLD_HAS_FILES_REASON "missing: nlohmann_json")
+
 # Input and output, and the apps
 set(missing "")
 if(NOT FOOTHOLD_IO STREQUAL "OFF")
   find_package(OpenCV QUIET COMPONENTS core imgproc imgcodecs calib3d highgui ml)
   find_package(ZLIB QUIET)
-  find_package(nlohmann_json QUIET)
   find_package(CLI11 QUIET)
   foreach(package OpenCV ZLIB nlohmann_json CLI11)
     if(NOT ${package}_FOUND)

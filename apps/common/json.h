@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// JSON documents to be written. Parsing is the business of foothold/io/settings_file.h.
+/// JSON documents to be written. Parsing is the business of foothold/files/settings_file.h.
 #pragma once
 
 #include <initializer_list>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "foothold/base/settings.h"
-#include "foothold/io/settings_file.h"
+#include "foothold/files/settings_file.h"
 
 namespace foothold::apps {
 

@@ -38,8 +38,8 @@ LiveRun::LiveRun(const LiveOptions& options, const LiveSettings& settings)
     : options_(options), keys_(scripted_keys(options.keys)), context_(apps::make_context(options.device)) {
   check_options(options);
   if (!options.record_only) {
-    session_ = std::make_unique<apps::ReconstructionSession>(context_, settings,
-                                                             options.forest.empty() ? default_forest() : load_forest(options.forest));
+    reconstruction_ =
+        std::make_unique<Reconstruction>(context_, settings, options.forest.empty() ? default_forest() : load_forest(options.forest));
     monitor_ = std::make_unique<apps::ReconstructionMonitor>(context_);
   }
   if (!options.load_scene.empty()) load_scene(options.load_scene);
@@ -101,14 +101,14 @@ bool LiveRun::limit_is_reached() {
 void LiveRun::take(RgbdFrame& frame) {
   const bool to_be_recorded = recording_ != nullptr && reader_ == nullptr;
   if (to_be_recorded) round_depth_as_recorded(frame.depth);
-  if (session_ != nullptr) register_colour(frame);  // as a replay would
+  if (reconstruction_ != nullptr) register_colour(frame);  // as a replay would
   const bool recorded = to_be_recorded && recording_->add(frame);
   check_recording();
   if (to_be_recorded && !recorded && !recording_failed_) return;  // the disk is too slow: dropped, and counted
   num_taken_ = reader_ != nullptr ? reader_->num_taken() : num_taken_ + 1;
-  if (session_ == nullptr) return;
-  const FusionFrameResult result = session_->process(frame);
-  monitor_->add(session_->pipeline(), result, event_);
+  if (reconstruction_ == nullptr) return;
+  const FusionFrameResult result = reconstruction_->process(frame.view());
+  monitor_->add(reconstruction_->pipeline(), result, event_);
   event_ = false;
   const std::string news = log_.add(frame.timestamp_s, result);
   if (!news.empty()) say(news);
@@ -146,17 +146,17 @@ void LiveRun::obey(int key) {
     if (reader_ != nullptr) reader_->set_paused(paused_);
     say(paused_ ? "paused" : "going on");
   }
-  if (session_ == nullptr) return;
+  if (reconstruction_ == nullptr) return;
   try {
     if (key == 'r') reset();
     if (key == 'l') {
-      session_->force_loss();
+      reconstruction_->force_loss();
       event_ = true;
       say("tracking of the next frame fails");
     }
     if (key == 't') {
-      session_->set_relocalises(!session_->relocalises());
-      say(session_->relocalises() ? "relocaliser on" : "relocaliser off: a lost camera is found only where it was last seen");
+      reconstruction_->set_relocalises(!reconstruction_->relocalises());
+      say(reconstruction_->relocalises() ? "relocaliser on" : "relocaliser off: a lost camera is found only where it was last seen");
     }
     if (key == 'm') save_mesh(options_.save_mesh.empty() ? default_name(".ply") : options_.save_mesh);
     if (key == 's') save_scene(options_.save_scene.empty() ? default_name(".scene") : options_.save_scene);
@@ -170,7 +170,7 @@ void LiveRun::obey(int key) {
 }
 
 void LiveRun::reset() {
-  session_->reset();
+  reconstruction_->reset();
   monitor_->clear();
   log_.begin_world();
   say("forgotten; a new scene begins");
@@ -185,23 +185,29 @@ std::vector<SettingText> LiveRun::provenance() const {
 }
 
 void LiveRun::save_scene(const std::string& path) {
-  session_->save(path, provenance());
+  reconstruction_->save(path, provenance());
   scene_path_ = path;
   say("saved the scene as " + path);
 }
 
 void LiveRun::load_scene(const std::string& path) {
-  session_->load(path);
+  try {
+    reconstruction_->load(path);
+  } catch (const OtherSceneSettings& error) {
+    std::string remedy;
+    for (const SettingText& setting : error.settings()) remedy += " --set " + setting.path + "=" + setting.text;
+    throw FileError(error.what() + (". To go on with it, give" + remedy));
+  }
   scene_path_ = loaded_scene_ = path;
   monitor_->clear();
-  monitor_->add_map(extract_mesh(session_->pipeline().volume()));
+  monitor_->add_map(extract_mesh(reconstruction_->pipeline().volume()));
   log_.begin_world();
-  if (session_->pipeline().state() == RecoveryState::kLost) log_.begin_lost();
+  if (reconstruction_->pipeline().state() == RecoveryState::kLost) log_.begin_lost();
   say("going on with the scene of " + path + ": looking for the camera in it");
 }
 
 void LiveRun::save_mesh(const std::string& path) {
-  write_ply(path, extract_mesh(session_->pipeline().volume()));
+  write_ply(path, extract_mesh(reconstruction_->pipeline().volume()));
   say("saved the surface as " + path);
 }
 
@@ -220,12 +226,12 @@ std::string LiveRun::counters() const {
 
 apps::ViewContents LiveRun::contents() {
   apps::ViewContents contents;
-  if (monitor_ != nullptr) contents = monitor_->contents(frame_, session_->pipeline());
+  if (monitor_ != nullptr) contents = monitor_->contents(frame_, reconstruction_->pipeline());
   contents.colour = frame_.colour;
   contents.depth_m = frame_.depth;
   contents.title = camera_name(status_.device);
   contents.frame_text = "frame " + std::to_string(num_taken_);
-  if (session_ == nullptr) contents.state = apps::ViewState::kRecording;
+  if (reconstruction_ == nullptr) contents.state = apps::ViewState::kRecording;
   if (paused_) contents.state = apps::ViewState::kPaused;
   if (status_.state != OpenNIState::kStreaming) contents.state = apps::ViewState::kWaiting;
   const std::vector<std::string> warnings = apps::warnings();
@@ -255,7 +261,7 @@ void LiveRun::attempt(const std::string& path, Save&& save) {
 }
 
 void LiveRun::save_reconstruction() {
-  const bool is_empty = session_->pipeline().volume().num_blocks() == 0;
+  const bool is_empty = reconstruction_->pipeline().volume().num_blocks() == 0;
   if (is_empty && !(options_.save_scene.empty() && options_.save_mesh.empty())) {
     apps::log_warning("nothing was reconstructed: no scene and no surface are saved");
   }
@@ -275,10 +281,10 @@ void LiveRun::save_all() {
   const OpenNIStatus status = status_;
   reader_.reset();
   if (recording_ != nullptr) attempt(options_.record_folder, [&] { recording_->finish(); });
-  if (session_ != nullptr) save_reconstruction();
+  if (reconstruction_ != nullptr) save_reconstruction();
   attempt(options_.json, [&] {
     RunLog::Surroundings surroundings{ended_by_, status, recording_.get(), options_.record_folder, loaded_scene_, saved_, errors_, 0};
-    if (session_ != nullptr) surroundings.num_blocks = session_->pipeline().volume().num_blocks();
+    if (reconstruction_ != nullptr) surroundings.num_blocks = reconstruction_->pipeline().volume().num_blocks();
     write_file_atomically(options_.json, log_.to_json(surroundings));
   });
   print_summary(status);
@@ -289,9 +295,9 @@ void LiveRun::print_summary(const OpenNIStatus& status) const {
   std::printf("camera: %lld pairs, %lld skipped, %lld images without a partner, reopened %lld times\n",
               static_cast<long long>(status.num_pairs), static_cast<long long>(status.num_skipped),
               static_cast<long long>(status.num_unmatched), static_cast<long long>(status.num_reopened));
-  if (session_ != nullptr) {
+  if (reconstruction_ != nullptr) {
     std::printf("reconstruction: %lld frames, %zu with a pose, lost %zu times, %d blocks\n", static_cast<long long>(log_.num_frames()),
-                log_.trajectory().size(), log_.losses().size(), session_->pipeline().volume().num_blocks());
+                log_.trajectory().size(), log_.losses().size(), reconstruction_->pipeline().volume().num_blocks());
   }
   if (recording_ == nullptr) return;
   const RecordingThread::Progress progress = recording_->progress();

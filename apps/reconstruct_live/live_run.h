@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "common/reconstruction_monitor.h"
-#include "common/reconstruction_session.h"
 #include "foothold/openni/openni_source.h"
+#include "foothold/reconstruction/reconstruction.h"
 #include "live_view.h"
 #include "options.h"
 #include "recording_reader.h"
@@ -57,7 +57,7 @@ class LiveRun {
   std::vector<ScriptedKey> keys_;
   Context context_;
 
-  std::unique_ptr<apps::ReconstructionSession> session_;  // these two are null if frames are only recorded
+  std::unique_ptr<Reconstruction> reconstruction_;  // these two are null if frames are only recorded
   std::unique_ptr<apps::ReconstructionMonitor> monitor_;
   std::unique_ptr<LiveView> view_;
   std::unique_ptr<OpenNISource> source_;

@@ -40,7 +40,7 @@ std::string mode_list(const std::vector<OpenNIVideoMode>& modes) {
 
 void LiveSettings::validate() const {
   camera.validate();
-  SessionSettings::validate();
+  ReconstructionSettings::validate();
 }
 
 void add_live_options(apps::CommandLine& app, LiveOptions& options) {

@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "common/app_main.h"
-#include "common/reconstruction_session.h"
 #include "foothold/openni/openni_source.h"
+#include "foothold/reconstruction/reconstruction.h"
 
 namespace foothold::live {
 
 /// Every setting that the app can change.
-struct LiveSettings : apps::SessionSettings {
+struct LiveSettings : ReconstructionSettings {
   /// The camera is waited for in short steps, so that keys are heeded meanwhile.
   LiveSettings() { camera.read_timeout_ms = 50; }
 
@@ -23,7 +23,7 @@ struct LiveSettings : apps::SessionSettings {
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&LiveSettings::camera, "camera");
-    SessionSettings::fields(v);
+    ReconstructionSettings::fields(v);
   }
   /// @throws InvalidSettings
   void validate() const;

@@ -4,21 +4,19 @@
 
 #include <utility>
 
-#include "common/reconstruction.h"
+#include "common/played_frame.h"
 #include "foothold/base/contract.h"
 #include "foothold/evaluation/novelty.h"
-#include "foothold/relocalisation/forest_relocaliser.h"
+#include "foothold/reconstruction/reconstruction.h"
 
 namespace foothold::benchmark {
 namespace {
 
-using apps::Reconstruction;
-
 Reconstruction make_reconstruction(const Context& context, const Method& method, const MethodInputs& inputs) {
   const FusionSettings fusion;
-  if (method.name == "ferns") return {context, fusion, std::make_unique<KeyframeRelocaliser>(context, inputs.settings.ferns)};
+  if (method.name == "ferns") return {context, fusion, KeyframeRelocaliser(context, inputs.settings.ferns)};
   const ForestRelocaliserSettings& settings = method.name == "paper" ? inputs.settings.paper : inputs.settings.forest;
-  return {context, fusion, std::make_unique<ForestRelocaliser>(context, *inputs.forest, settings)};
+  return {context, fusion, ForestRelocaliser(context, *inputs.forest, settings)};
 }
 
 /// A kidnap that was played, to be judged once the undisturbed run has come as far.
@@ -84,7 +82,7 @@ KidnapRun run_kidnaps(const Context& context, const Method& method, const Method
       if (input.kidnaps[i].from == frame_number) branches.push_back(player.branch_off(reconstruction, i, seen, run.kidnaps[i].was_seen));
     }
     const RgbdFrame frame = player.load(frame_number);
-    if (frame_number == 0 && frame.world_from_camera.has_value()) reconstruction.pipeline().start_at(*frame.world_from_camera);
+    if (frame_number == 0 && frame.world_from_camera.has_value()) reconstruction.start_at(*frame.world_from_camera);
     poses.push_back(reconstruction.process(frame.view()).world_from_camera);
     if (frame.world_from_camera.has_value()) seen.push_back(*frame.world_from_camera);
     run.num_tracked_frames += poses.back().has_value() ? 1 : 0;

@@ -8,22 +8,21 @@
 #include <numeric>
 
 #include "common/peak_memory.h"
+#include "common/played_frame.h"
 #include "common/progress_bar.h"
-#include "common/reconstruction.h"
 #include "common/unhurried_player.h"
 #include "foothold/base/error.h"
 #include "foothold/frames/frame_uploader.h"
 #include "foothold/fusion/surface_mesh.h"
 #include "foothold/io/sequence.h"
 #include "foothold/io/sequence_player.h"
-#include "foothold/relocalisation/forest_relocaliser.h"
+#include "foothold/reconstruction/reconstruction.h"
+#include "mapped_fraction.h"
 #include "outside_picture.h"
 #include "replay_view.h"
 
 namespace foothold::replay {
 namespace {
-
-using apps::Reconstruction;
 
 /// Size of the picture from outside [px].
 constexpr int kPictureWidth = 960;
@@ -42,9 +41,9 @@ Forest make_forest(const std::string& choice, const ReplaySettings& settings) {
 /// @throws InvalidSettings, FileError, DeviceError
 Reconstruction make_reconstruction(const Context& context, const ReplayOptions& options, const ReplaySettings& settings) {
   if (options.method == "forest") {
-    return {context, settings.fusion, std::make_unique<ForestRelocaliser>(context, make_forest(options.forest, settings), settings.forest)};
+    return {context, settings.fusion, ForestRelocaliser(context, make_forest(options.forest, settings), settings.forest)};
   }
-  if (options.method == "ferns") return {context, settings.fusion, std::make_unique<KeyframeRelocaliser>(context, settings.ferns)};
+  if (options.method == "ferns") return {context, settings.fusion, KeyframeRelocaliser(context, settings.ferns)};
   return {context, settings.fusion};
 }
 
@@ -105,7 +104,7 @@ class Replayer {
   ReplayRun play_undisturbed(const std::vector<Kidnap>& independent, std::vector<KidnapRecord>& records);
   void play_kidnapped(const KidnapPlan& plan, ReplayResult& result);
   KidnapRecord branch_off(const Reconstruction& reconstruction, const Kidnap& kidnap, const ReplayRun& so_far);
-  std::optional<double> mapped_fraction(Reconstruction& reconstruction, const ReplayFrame& last, const RgbdFrame& first) const;
+  std::optional<double> mapped_part(const Reconstruction& reconstruction, const ReplayFrame& last, const RgbdFrame& first) const;
   void judge_kidnaps(ReplayResult& result) const;
   Mesh mesh_from_true_poses() const;
   void compare_surfaces(ReplayResult& result) const;
@@ -122,7 +121,7 @@ class Replayer {
 Reconstruction Replayer::start() const {
   Reconstruction reconstruction = make_reconstruction(context_, options_, settings_);
   const std::optional<SE3> first = sequence_->load(indices_.front()).world_from_camera;
-  if (first.has_value()) reconstruction.pipeline().start_at(*first);
+  if (first.has_value()) reconstruction.start_at(*first);
   return reconstruction;
 }
 
@@ -188,12 +187,12 @@ ReplayRun Replayer::play(const std::string& label, Reconstruction& reconstructio
   return run;
 }
 
-std::optional<double> Replayer::mapped_fraction(Reconstruction& reconstruction, const ReplayFrame& last, const RgbdFrame& first) const {
+std::optional<double> Replayer::mapped_part(const Reconstruction& reconstruction, const ReplayFrame& last, const RgbdFrame& first) const {
   if (!last.result.world_from_camera.has_value() || !last.world_from_camera_true.has_value() || !first.world_from_camera.has_value()) {
     return std::nullopt;
   }
   const SE3 first_from_last = last.world_from_camera_true->inverse() * *first.world_from_camera;
-  return reconstruction.mapped_fraction(first.view(), *last.result.world_from_camera * first_from_last);
+  return mapped_fraction(context_, reconstruction.pipeline(), first.view(), *last.result.world_from_camera * first_from_last);
 }
 
 KidnapRecord Replayer::branch_off(const Reconstruction& reconstruction, const Kidnap& kidnap, const ReplayRun& so_far) {
@@ -206,7 +205,7 @@ KidnapRecord Replayer::branch_off(const Reconstruction& reconstruction, const Ki
   RgbdFrame frame;
   for (const PlayStep& step : steps) {
     if (stopped() || !read(*source, frame)) break;
-    if (step.kidnap >= 0) record.mapped = mapped_fraction(copy, so_far.frames.back(), frame);
+    if (step.kidnap >= 0) record.mapped = mapped_part(copy, so_far.frames.back(), frame);
     const ReplayFrame shown = show(copy, frame, step, step.kidnap >= 0 ? describe(kidnap) : std::string());
     if (!step.covered) record.frames.push_back(shown);
   }
@@ -235,7 +234,7 @@ void Replayer::play_kidnapped(const KidnapPlan& plan, ReplayResult& result) {
         std::find_if(so_far.frames.rbegin(), so_far.frames.rend(), [](const ReplayFrame& frame) { return !frame.step.covered; });
     const RgbdFrame first = sequence_->load(indices_[static_cast<std::size_t>(step.frame)]);
     if (last != so_far.frames.rend()) {
-      result.kidnaps[static_cast<std::size_t>(step.kidnap)].mapped = mapped_fraction(reconstruction, *last, first);
+      result.kidnaps[static_cast<std::size_t>(step.kidnap)].mapped = mapped_part(reconstruction, *last, first);
     }
   };
   result.kidnapped = play("kidnapped", reconstruction, plan.steps, plan.kidnaps, measure_view);

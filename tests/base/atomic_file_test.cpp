@@ -20,13 +20,6 @@ namespace foothold {
 
 using namespace test;
 
-namespace {
-template <class Call>
-std::string error_of(const Call& call) {
-  return error_message<FileError>(call);
-}
-}  // namespace
-
 using Catch::Matchers::Contains;
 
 TEST_CASE("AtomicFile: the file appears on commit, and nothing else remains") {

@@ -14,11 +14,12 @@ import sys
 
 # What each module may include besides itself. Arrows point down only, and the modules of one layer never see each other.
 BOTTOM = ["base", "api"]
-LAYER_2 = ["frames", "relocalisation", "fusion", "evaluation", "synthetic"]
+LAYER_2 = ["files", "frames", "relocalisation", "fusion", "evaluation", "synthetic"]
 ALLOWED = {
     "base": [],
     "api": ["base"],
     **{module: BOTTOM for module in LAYER_2},
+    "reconstruction": BOTTOM + ["files", "frames", "relocalisation", "fusion"],
     "io": BOTTOM + LAYER_2,
     "openni": BOTTOM,
     "learning": BOTTOM + LAYER_2,
@@ -36,7 +37,7 @@ ALLOWED_BELOW = {"modules/openni/virtual_camera": ["frames", "io"]}
 LIBRARIES = [
     ("OpenCV", r"opencv2?/", ["modules/io", "modules/learning", "apps", "tests/io", "tests/learning", "tests/apps"]),
     ("OpenNI2", r"(OpenNI|Oni[A-Z]\w*|PS1080|Driver/OniDriverAPI)\.h$|openni2/", ["modules/openni", "tests/openni"]),
-    ("nlohmann-json", r"nlohmann/", ["modules/io", "apps/common/json.cpp"]),
+    ("nlohmann-json", r"nlohmann/", ["modules/files", "apps/common/json.cpp"]),
     ("CLI11", r"CLI/", ["apps/common/command_line.cpp"]),
     ("oneTBB", r"(oneapi/)?tbb/", ["modules/base/include/foothold/base/exec", "modules/base/src", "tests/support"]),
     ("OpenMP", r"omp\.h$", []),
@@ -51,7 +52,7 @@ FORBIDDEN_IN_MODULES = [
     (re.compile(r"\bstd::c(?:out|err|log)\b|\b(?:printf|puts|putchar|perror)\s*\("), "writes to the terminal; use Context::log()"),
 ]
 THREADS = re.compile(r"\bstd::(?:thread|jthread|async)\b|\bpthread_create\b|#\s*pragma\s+omp\b")
-THREAD_FREE = ["modules/api", "modules/frames", "modules/relocalisation", "modules/fusion", "modules/synthetic", "modules/evaluation"]
+THREAD_FREE = ["modules/api", "modules/files", "modules/frames", "modules/relocalisation", "modules/fusion", "modules/reconstruction", "modules/synthetic", "modules/evaluation"]
 THREADS_EXCEPT = re.compile(r"/background_\w+\.(h|cpp)$")  # background training lives on a thread of its own
 LAUNCH = re.compile(r"<<<")
 LAUNCH_PLACE = "modules/base/include/foothold/base/exec/"

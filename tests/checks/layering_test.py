@@ -34,6 +34,8 @@ class LayeringTest(unittest.TestCase):
         self.expect_violation("modules/fusion/src/a.cpp", '#include "foothold/relocalisation/forest.h"\n', "fusion must not see relocalisation")
         self.expect_violation("modules/api/src/a.cpp", '#include "foothold/fusion/volume.h"\n', "api must not see fusion")
         self.expect_clean("modules/learning/src/a.cpp", '#include "foothold/fusion/volume.h"\n#include "foothold/base/se3.h"\n')
+        self.expect_violation("modules/reconstruction/src/a.cpp", '#include "foothold/io/sequence.h"\n', "reconstruction must not see io")
+        self.expect_clean("modules/reconstruction/src/a.cpp", '#include "foothold/fusion/volume.h"\n#include "foothold/relocalisation/forest.h"\n')
         self.expect_clean("apps/replay/main.cpp", '#include "foothold/fusion/volume.h"\n#include <opencv2/core.hpp>\n')
 
     def test_unknown_modules_need_a_place(self):
@@ -42,6 +44,7 @@ class LayeringTest(unittest.TestCase):
     def test_libraries_stay_in_their_modules(self):
         self.expect_violation("modules/fusion/src/a.cpp", "#include <opencv2/core.hpp>\n", "OpenCV")
         self.expect_violation("modules/io/src/a.cpp", "#include <OpenNI.h>\n", "OpenNI2")
+        self.expect_violation("modules/reconstruction/src/a.cpp", "#include <opencv2/core.hpp>\n", "OpenCV")
         self.expect_violation("modules/relocalisation/src/a.cpp", "#include <oneapi/tbb/parallel_for.h>\n", "oneTBB")
         self.expect_clean("modules/io/src/a.cpp", "#include <opencv2/core.hpp>\n")
 

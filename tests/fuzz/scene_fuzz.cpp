@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
 /// Scene files: what is accepted reads the same once written again. Checksums are set right first, or no input would get past them.
-#include "scene_stream.h"
+#include "foothold/files/scene_file.h"
 
 #include <sstream>
 
@@ -38,13 +38,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Bytes first;
     Bytes second;
     std::istringstream stream(file);
-    const SceneDescription description = io::read_scene(stream, "a.scene", {{"first", &first}, {"second", &second}});
+    const SceneDescription description = read_scene(stream, "a.scene", {{"first", &first}, {"second", &second}});
     std::ostringstream written;
-    io::write_scene(written, description, {{"first", &first}, {"second", &second}});
+    write_scene(written, description, {{"first", &first}, {"second", &second}});
     Bytes first_again;
     Bytes second_again;
     std::istringstream again(written.str());
-    const SceneDescription same = io::read_scene(again, "a.scene", {{"first", &first_again}, {"second", &second_again}});
+    const SceneDescription same = read_scene(again, "a.scene", {{"first", &first_again}, {"second", &second_again}});
     fuzz::require(first_again.bytes == first.bytes && second_again.bytes == second.bytes);
     fuzz::require(same.settings.size() == description.settings.size() && same.provenance.size() == description.provenance.size());
   });

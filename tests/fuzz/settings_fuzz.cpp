@@ -19,7 +19,7 @@ struct OuterSettings {
 };
 
 void assign_all(const std::string& text, OuterSettings& settings) {
-  for (const foothold::SettingText& setting : foothold::io::parse_settings_json(text, "settings.json")) {
+  for (const foothold::SettingText& setting : foothold::files::parse_settings_json(text, "settings.json")) {
     foothold::assign_setting(settings, setting.path, setting.text);
   }
 }

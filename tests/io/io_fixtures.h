@@ -8,6 +8,7 @@
 
 #include "foothold/api/frame.h"
 #include "foothold/base/error.h"
+#include "support/error_message.h"
 #include "support/temp_folder.h"
 
 namespace foothold::test {
@@ -23,16 +24,5 @@ RgbdFrame small_frame(int i);
 
 /// Writes a 7-Scenes folder of `num_frames` small frames.
 void write_small_recording(const std::string& folder, int num_frames);
-
-/// The message of the FileError or InvalidSettings that a call throws; fails the test if it throws nothing or something else.
-template <class Exception = FileError, class Call>
-std::string error_of(Call&& call) {
-  try {
-    call();
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  return "(nothing was thrown)";
-}
 
 }  // namespace foothold::test

@@ -5,8 +5,8 @@
 #include <map>
 
 #include "foothold/evaluation/text_table.h"
+#include "foothold/files/scene_file.h"
 #include "foothold/io/mesh_file.h"
-#include "foothold/io/scene_file.h"
 #include "foothold/io/sequence.h"
 #include "foothold/io/seven_scenes_writer.h"
 #include "foothold/io/trajectory.h"

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "foothold/base/error.h"
+
 namespace foothold::test {
 
 /// What an exception of the given type says that `action` throws; empty if it throws none.
@@ -15,6 +17,17 @@ std::string error_message(const Action& action) {
     return error.what();
   }
   return {};
+}
+
+/// The message of the exception that a call throws; something else than a message if it throws none.
+template <class Exception = FileError, class Call>
+std::string error_of(Call&& call) {
+  try {
+    call();
+  } catch (const Exception& error) {
+    return error.what();
+  }
+  return "(nothing was thrown)";
 }
 
 /// True if a text holds a part.

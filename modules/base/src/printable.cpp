@@ -19,4 +19,11 @@ std::string printable(std::string_view text, std::size_t max_characters) {
   return result;
 }
 
+std::string in_quotes(std::string_view text) {
+  constexpr std::size_t kMaxLength = 60;
+  std::string result = "'";
+  for (const char c : text.substr(0, kMaxLength)) result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+  return result + (text.size() > kMaxLength ? "...'" : "'");
+}
+
 }  // namespace foothold

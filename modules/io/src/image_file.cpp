@@ -49,11 +49,11 @@ std::string pixel_text(const io::ImageHeader& header) {
 
 /// The header of an image that may be decoded. @throws FileError
 io::ImageHeader check_image(std::string_view bytes, const std::filesystem::path& name) {
-  if (const std::string error = describe_image_error(bytes); !error.empty()) io::throw_file_error(name, error, kExpected);
+  if (const std::string error = describe_image_error(bytes); !error.empty()) throw_file_error(name, error, kExpected);
   const std::optional<io::ImageHeader> header = io::parse_image_header(bytes);
-  if (!header.has_value()) io::throw_file_error(name, "an image with a damaged header", kExpected);
+  if (!header.has_value()) throw_file_error(name, "an image with a damaged header", kExpected);
   if (std::int64_t{header->size.width} * header->size.height > io::kMaxImagePixels) {
-    io::throw_file_error(name, to_string(header->size) + " pixels", "at most " + std::to_string(io::kMaxImagePixels) + " in all");
+    throw_file_error(name, to_string(header->size) + " pixels", "at most " + std::to_string(io::kMaxImagePixels) + " in all");
   }
   return *header;
 }
@@ -63,9 +63,9 @@ cv::Mat decode(std::string bytes, const std::filesystem::path& name, int flags) 
   try {
     image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data()), flags);
   } catch (const cv::Exception& exception) {
-    io::throw_file_error(name, "an image that cannot be decoded (" + std::string(exception.err) + ")", kExpected);
+    throw_file_error(name, "an image that cannot be decoded (" + std::string(exception.err) + ")", kExpected);
   }
-  if (image.empty()) io::throw_file_error(name, "a damaged image", kExpected);
+  if (image.empty()) throw_file_error(name, "a damaged image", kExpected);
   return image;
 }
 
@@ -124,9 +124,9 @@ Image<std::uint16_t> decode_u16(std::string bytes, const std::filesystem::path& 
 
 }  // namespace io
 
-Image<Rgb8> read_rgb_image(const std::string& path) { return io::decode_rgb(io::read_file(path, io::kMaxImageBytes), path); }
+Image<Rgb8> read_rgb_image(const std::string& path) { return io::decode_rgb(read_file(path, io::kMaxImageBytes), path); }
 
-Image<std::uint16_t> read_u16_image(const std::string& path) { return io::decode_u16(io::read_file(path, io::kMaxImageBytes), path); }
+Image<std::uint16_t> read_u16_image(const std::string& path) { return io::decode_u16(read_file(path, io::kMaxImageBytes), path); }
 
 void write_png(const std::string& path, const Image<Rgb8>& image) {
   cv::Mat bgr(image.height(), image.width(), CV_8UC3);

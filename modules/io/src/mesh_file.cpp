@@ -234,7 +234,7 @@ void write_ply(const std::string& path, const Mesh& mesh) {
 
 Mesh read_ply(const std::string& path) {
   constexpr std::size_t kMaxMeshBytes = std::size_t{4} << 30U;
-  return io::parse_ply(io::read_file(path, kMaxMeshBytes), path);
+  return io::parse_ply(read_file(path, kMaxMeshBytes), path);
 }
 
 }  // namespace foothold

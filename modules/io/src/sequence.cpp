@@ -91,7 +91,7 @@ std::size_t find_range(const std::string& spec) {
 
 FrameRange parse_frame_range(const std::string& text) {
   const auto fail = [&]() -> FrameRange {
-    throw InvalidSettings("frame range: got " + io::in_quotes(text) +
+    throw InvalidSettings("frame range: got " + in_quotes(text) +
                           ", expected A:B with 0 <= A < B, the last one excluded; either may be left out");
   };
   const auto parse = [&](std::string_view digits, int fallback) {
@@ -114,7 +114,7 @@ std::shared_ptr<Recording> open_recording(const std::string& source, const Conte
     if (!fs::exists(folder)) throw FileError(source + ": no such folder; expected a recording's folder or synthetic:NAME");
     if (fs::is_regular_file(folder) && folder.extension() == ".sens")
       return io::make_recording(io::read_sens_file(folder), context, options);
-    if (!fs::is_directory(folder)) io::throw_file_error(folder, "a file", "a recording's folder");
+    if (!fs::is_directory(folder)) throw_file_error(folder, "a file", "a recording's folder");
     for (const io::Layout& layout : io::layouts()) {
       if (layout.matches(folder)) return io::make_recording(layout.read(folder, context), context, options);
     }

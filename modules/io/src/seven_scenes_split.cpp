@@ -23,7 +23,7 @@ std::string sequence_folder(const io::TextLine& line, const fs::path& file) {
   const auto [end, error] = std::from_chars(begin, word.data() + word.size(), number);
   const bool well_formed = line.words.size() == 1 && word.substr(0, kPrefix.size()) == kPrefix && error == std::errc() &&
                            end == word.data() + word.size() && number > 0 && number < 1000;
-  if (!well_formed) io::throw_file_error(file, io::in_quotes(word) + " in line " + std::to_string(line.number), "sequenceN");
+  if (!well_formed) throw_file_error(file, in_quotes(word) + " in line " + std::to_string(line.number), "sequenceN");
   std::array<char, 16> name{};
   std::snprintf(name.data(), name.size(), "seq-%02d", number);
   return name.data();

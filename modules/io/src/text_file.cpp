@@ -5,11 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
 #include <sstream>
 
 namespace foothold::io {
@@ -71,31 +68,6 @@ bool is_heading(std::string_view word) {
 
 }  // namespace
 
-void throw_file_error(const std::filesystem::path& file, const std::string& found, const std::string& expected) {
-  throw FileError(file.string() + ": got " + found + ", expected " + expected);
-}
-
-std::string read_file(const std::filesystem::path& file, std::size_t max_bytes) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found) throw FileError(file.string() + ": no such file");
-  if (std::filesystem::is_directory(status)) throw_file_error(file, "a folder", "a file");
-  if (!error && !std::filesystem::is_regular_file(status)) throw_file_error(file, "a pipe or device", "a file");
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw FileError(file.string() + ": cannot be opened for reading: " + std::strerror(errno));
-  std::string bytes;
-  char block[1U << 16U];
-  while (stream.read(block, sizeof block) || stream.gcount() > 0) {
-    bytes.append(block, static_cast<std::size_t>(stream.gcount()));
-    if (bytes.size() > max_bytes) {
-      throw_file_error(file, "more than " + std::to_string(max_bytes) + " bytes", "a smaller file of this kind");
-    }
-  }
-  if (stream.bad()) throw FileError(file.string() + ": reading failed: " + std::strerror(errno));
-  return bytes;
-}
-
 std::string read_text(const std::filesystem::path& file, std::size_t max_bytes) { return plain_text(read_file(file, max_bytes)); }
 
 std::string plain_text(std::string text) {
@@ -112,13 +84,6 @@ std::string plain_text(std::string text) {
     begin = end + 1;
   }
   return text;
-}
-
-std::string in_quotes(std::string_view text) {
-  constexpr std::size_t kMaxLength = 60;
-  std::string result = "'";
-  for (const char c : text.substr(0, kMaxLength)) result += static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
-  return result + (text.size() > kMaxLength ? "...'" : "'");
 }
 
 std::vector<std::string_view> split_words(std::string_view text) {

@@ -9,16 +9,10 @@
 #include <string_view>
 #include <vector>
 
-#include "foothold/base/error.h"
+#include "foothold/base/input_file.h"
+#include "foothold/base/printable.h"
 
 namespace foothold::io {
-
-/// Throws FileError "file: got <found>, expected <expected>".
-[[noreturn]] void throw_file_error(const std::filesystem::path& file, const std::string& found, const std::string& expected);
-
-/// The bytes of a file. @throws FileError if it is no regular file (pipes and devices may never end), cannot be opened, or is larger than
-/// `max_bytes`.
-std::string read_file(const std::filesystem::path& file, std::size_t max_bytes);
 
 /// The text of a file, by read_file() and plain_text(). @throws FileError
 std::string read_text(const std::filesystem::path& file, std::size_t max_bytes);
@@ -27,9 +21,6 @@ std::string read_text(const std::filesystem::path& file, std::size_t max_bytes);
 /// and in lines of comma- or semicolon-separated values blanks take the place of separators and quotes. Where semicolons separate, commas
 /// become decimal points.
 std::string plain_text(std::string text);
-
-/// Text from outside, made fit for a message: quoted, without control characters, and cut when long.
-std::string in_quotes(std::string_view text);
 
 /// The words of a text, separated by blanks and line ends.
 std::vector<std::string_view> split_words(std::string_view text);

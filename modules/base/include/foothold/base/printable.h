@@ -15,4 +15,7 @@ namespace foothold {
 /// @param max_characters  What follows them is cut off and shown as "...".
 std::string printable(std::string_view text, std::size_t max_characters = 80);
 
+/// Text from outside, made fit for a message: quoted, without control characters, and cut when long.
+std::string in_quotes(std::string_view text);
+
 }  // namespace foothold

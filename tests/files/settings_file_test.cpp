@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "foothold/io/settings_file.h"
+#include "foothold/files/settings_file.h"
 
-#include "io_fixtures.h"
 #include "settings_json.h"
 #include "support/catch.h"
+#include "support/error_message.h"
+#include "support/temp_folder.h"
 
 namespace foothold {
 namespace {

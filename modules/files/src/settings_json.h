@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "foothold/io/settings_file.h"
+#include "foothold/files/settings_file.h"
 
-namespace foothold::io {
+namespace foothold::files {
 
 /// read_settings_file() of a text already in memory.
 std::vector<SettingText> parse_settings_json(const std::string& text, const std::string& file);
 
-}  // namespace foothold::io
+}  // namespace foothold::files

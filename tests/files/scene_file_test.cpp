@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "foothold/io/scene_file.h"
+#include "foothold/files/scene_file.h"
 
 #include <sstream>
 
 #include "foothold/base/checked_stream.h"
-#include "io_fixtures.h"
-#include "scene_stream.h"
+#include "foothold/base/error.h"
 #include "support/catch.h"
+#include "support/error_message.h"
 #include "support/file_size_limit.h"
 #include "support/random_seed.h"
+#include "support/temp_folder.h"
 
 namespace foothold {
 namespace {
@@ -53,7 +54,7 @@ SceneDescription description() {
 
 std::string scene_bytes(const std::vector<SavedPart>& parts) {
   std::ostringstream file;
-  io::write_scene(file, description(), parts);
+  write_scene(file, description(), parts);
   return file.str();
 }
 
@@ -62,7 +63,7 @@ std::string refusal(const std::string& bytes) {
   std::istringstream file(bytes);
   Bytes first;
   Bytes second;
-  return error_of([&] { io::read_scene(file, "a.scene", {{"first", &first}, {"second", &second}}); });
+  return error_of([&] { read_scene(file, "a.scene", {{"first", &first}, {"second", &second}}); });
 }
 
 }  // namespace
@@ -126,13 +127,25 @@ TEST_CASE("load_scene: other parts than those expected are refused by name") {
   CHECK_THAT(refusal(scene_bytes({{"first", &part}, {"third", &part}})), Contains("got part 'third', expected part 'second'"));
 }
 
+TEST_CASE("load_scene: a scene can be refused by its description, before any part is touched") {
+  const TempFolder temp;
+  const Bytes part("abc");
+  save_scene(temp / "a.scene", description(), {{"only", &part}});
+  Bytes reader("old");
+  const SceneCheck refuse = [](const SceneDescription& scene) { throw FileError("of " + scene.provenance.at(0).text); };
+  CHECK(error_of([&] { load_scene(temp / "a.scene", {{"only", &reader}}, refuse); }) == "of a camera");
+  CHECK(reader.bytes == "old");
+  load_scene(temp / "a.scene", {{"only", &reader}}, [](const SceneDescription&) {});
+  CHECK(reader.bytes == "abc");
+}
+
 TEST_CASE("load_scene: a part's refusal names the file") {
   const Bytes part("abc");
   std::istringstream file(scene_bytes({{"only", &part}}));
   Bytes reader("old");
   reader.refuses = true;
   CHECK_THAT(error_of([&] {
-               io::read_scene(file, "a.scene", {{"only", &reader}});
+               read_scene(file, "a.scene", {{"only", &reader}});
              }),
              Contains("a.scene: part 'only': these bytes are not wanted"));
   CHECK(reader.bytes == "old");
@@ -142,7 +155,7 @@ TEST_CASE("load_scene: bytes that a part leaves are refused") {
   const Bytes part("abc");
   std::istringstream file(scene_bytes({{"only", &part}}));
   FirstByte reader;
-  CHECK_THAT(error_of([&] { io::read_scene(file, "a.scene", {{"only", &reader}}); }), Contains("goes on where its end was expected"));
+  CHECK_THAT(error_of([&] { read_scene(file, "a.scene", {{"only", &reader}}); }), Contains("goes on where its end was expected"));
 }
 
 TEST_CASE("load_scene: a scene cut short anywhere, or with more behind its end, is refused") {

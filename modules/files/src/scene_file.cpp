@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "foothold/io/scene_file.h"
+#include "foothold/files/scene_file.h"
 
 #include <cerrno>
 #include <cstring>
@@ -10,12 +10,11 @@
 #include "foothold/base/atomic_file.h"
 #include "foothold/base/checked_stream.h"
 #include "foothold/base/contract.h"
-#include "scene_stream.h"
+#include "foothold/base/input_file.h"
+#include "foothold/base/printable.h"
 #include "settings_json.h"
-#include "text_file.h"
 
 namespace foothold {
-namespace io {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -42,7 +41,7 @@ SceneDescription from_json(const std::string& text, const std::string& name) {
   SceneDescription description;
   std::vector<SettingText> leaves;
   try {
-    leaves = parse_settings_json(text, name);
+    leaves = files::parse_settings_json(text, name);
   } catch (const InvalidSettings& error) {
     throw FileError(error.what());  // nobody typed it
   }
@@ -107,10 +106,10 @@ std::ifstream open_scene(const std::string& path) {
 
 }  // namespace
 
-void write_scene(std::ostream& file, const SceneDescription& description, const std::vector<SavedPart>& parts) {
+void write_scene(std::ostream& stream, const SceneDescription& description, const std::vector<SavedPart>& parts) {
   const std::string text = to_json(description);
   FOOTHOLD_EXPECTS(text.size() <= kMaxDescriptionBytes && parts.size() <= kMaxParts);
-  CheckedWriter head(file, kSceneFormat);
+  CheckedWriter head(stream, kSceneFormat);
   head.write_text(text);
   head.write(static_cast<std::uint64_t>(parts.size()));
   for (const SavedPart& part : parts) {
@@ -119,34 +118,33 @@ void write_scene(std::ostream& file, const SceneDescription& description, const 
   }
   std::uint64_t checksum = head.finish();
   for (const SavedPart& part : parts) {
-    CheckedWriter writer(file, kPartFormat, checksum);
+    CheckedWriter writer(stream, kPartFormat, checksum);
     part.part->save(writer.stream());
     checksum = writer.finish();
   }
 }
 
-SceneDescription read_scene(std::istream& file, const std::string& name, const std::vector<LoadedPart>& parts) {
-  Head head = read_head(file, name);
+SceneDescription read_scene(std::istream& stream, const std::string& name, const std::vector<LoadedPart>& parts, const SceneCheck& check) {
+  Head head = read_head(stream, name);
+  if (check) check(head.description);
   check_names(head.part_names, parts, name);
-  for (const LoadedPart& part : parts) read_part(file, name, part, head.checksum);
-  if (file.peek() != std::istream::traits_type::eof()) throw FileError(name + ": goes on where the scene's end was expected");
+  for (const LoadedPart& part : parts) read_part(stream, name, part, head.checksum);
+  if (stream.peek() != std::istream::traits_type::eof()) throw FileError(name + ": goes on where the scene's end was expected");
   return head.description;
 }
 
-}  // namespace io
-
 void save_scene(const std::string& path, const SceneDescription& description, const std::vector<SavedPart>& parts) {
-  write_file_atomically(path, [&](std::ostream& file) { io::write_scene(file, description, parts); });
+  write_file_atomically(path, [&](std::ostream& file) { write_scene(file, description, parts); });
 }
 
 SceneDescription read_scene_description(const std::string& path) {
-  std::ifstream file = io::open_scene(path);
-  return io::read_head(file, path).description;
+  std::ifstream file = open_scene(path);
+  return read_head(file, path).description;
 }
 
-SceneDescription load_scene(const std::string& path, const std::vector<LoadedPart>& parts) {
-  std::ifstream file = io::open_scene(path);
-  return io::read_scene(file, path, parts);
+SceneDescription load_scene(const std::string& path, const std::vector<LoadedPart>& parts, const SceneCheck& check) {
+  std::ifstream file = open_scene(path);
+  return read_scene(file, path, parts, check);
 }
 
 }  // namespace foothold

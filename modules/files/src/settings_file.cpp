@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "foothold/io/settings_file.h"
+#include "foothold/files/settings_file.h"
 
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "foothold/base/atomic_file.h"
+#include "foothold/base/input_file.h"
+#include "foothold/base/printable.h"
 #include "settings_json.h"
-#include "text_file.h"
 
 namespace foothold {
-namespace io {
+namespace files {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -83,24 +84,24 @@ std::vector<SettingText> parse_settings_json(const std::string& text, const std:
   return std::move(collector.leaves());
 }
 
-}  // namespace io
+}  // namespace files
 
 std::vector<SettingText> read_settings_file(const std::string& path) {
   constexpr std::size_t kMaxSettingsBytes = 16U << 20U;
-  return io::parse_settings_json(io::read_file(path, kMaxSettingsBytes), path);
+  return files::parse_settings_json(read_file(path, kMaxSettingsBytes), path);
 }
 
 std::string settings_to_json(const std::vector<SettingDescription>& settings) {
-  io::Json root = io::Json::object();
+  files::Json root = files::Json::object();
   for (const SettingDescription& setting : settings) {
-    io::Json* node = &root;
+    files::Json* node = &root;
     std::size_t begin = 0;
     for (std::size_t dot = setting.path.find('.'); dot != std::string::npos; dot = setting.path.find('.', begin)) {
       node = &(*node)[setting.path.substr(begin, dot - begin)];
       begin = dot + 1;
     }
     const bool is_text = setting.range.empty();
-    (*node)[setting.path.substr(begin)] = is_text ? io::Json(setting.value) : io::Json::parse(setting.value);
+    (*node)[setting.path.substr(begin)] = is_text ? files::Json(setting.value) : files::Json::parse(setting.value);
   }
   return root.dump(2) + "\n";
 }

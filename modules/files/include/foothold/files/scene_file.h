@@ -5,11 +5,13 @@
 /// The file (docs/scene-format.md) is versioned and checksummed throughout: damage is told before a part sees it.
 #pragma once
 
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <vector>
 
-#include "foothold/api/relocaliser.h"
-#include "foothold/io/settings_file.h"
+#include "foothold/base/persistent.h"
+#include "foothold/files/settings_file.h"
 
 namespace foothold {
 
@@ -39,6 +41,9 @@ struct LoadedPart {
   Persistent* part = nullptr;
 };
 
+/// Writes a scene. @throws FileError if a part cannot be written.
+void write_scene(std::ostream& stream, const SceneDescription& description, const std::vector<SavedPart>& parts);
+
 /// Writes a scene. The file of that name is replaced once all of it is on the disk; on failure it stays. @throws FileError
 void save_scene(const std::string& path, const SceneDescription& description, const std::vector<SavedPart>& parts);
 
@@ -46,11 +51,21 @@ void save_scene(const std::string& path, const SceneDescription& description, co
 /// @throws FileError naming the file: missing, not a scene, of another version, cut short or damaged.
 SceneDescription read_scene_description(const std::string& path);
 
-/// Loads a scene's parts, in the order in which they were saved.
+/// Refuses a scene by its description, before any part is read, by throwing.
+using SceneCheck = std::function<void(const SceneDescription&)>;
+
+/// Reads a scene's parts, in the order in which they were saved, to the end of the stream.
 ///
 /// A part keeps its former state unless it was read whole, but those before it have theirs replaced by then: load into fresh objects, and
 /// drop them on failure.
-/// @throws FileError as read_scene_description(), if the parts are others than those saved, or if one of them refuses what it reads.
-SceneDescription load_scene(const std::string& path, const std::vector<LoadedPart>& parts);
+/// @param name   Stands for the stream in messages.
+/// @param check  May refuse the scene; none accepts all.
+/// @throws FileError as read_scene_description(), if the parts are others than those saved, or if one of them refuses what it reads; and
+///         what `check` throws.
+SceneDescription read_scene(std::istream& stream, const std::string& name, const std::vector<LoadedPart>& parts,
+                            const SceneCheck& check = nullptr);
+
+/// read_scene() from a file.
+SceneDescription load_scene(const std::string& path, const std::vector<LoadedPart>& parts, const SceneCheck& check = nullptr);
 
 }  // namespace foothold
