@@ -59,7 +59,6 @@ class UndisturbedTest(ReplayTest):
         self.assertAlmostEqual(volume["voxel_size_m"], 0.02, places=6)
         self.assertAlmostEqual(volume["truncation_m"], 0.08, places=6)
         self.assertEqual(volume["max_depth_m"], 4)
-        self.assertEqual(result["settings"]["fusion"]["icp"]["max_depth_m"], 4)
         self.assertEqual(result["undisturbed"]["frames"], 20)
         self.assertEqual(result["undisturbed"]["relocaliser_mb"], 0)
 
