@@ -7,11 +7,15 @@
 
 #include "commands.h"
 #include "common/canvas.h"
+#include "common/progress_bar.h"
+#include "foothold/base/atomic_file.h"
 #include "foothold/base/error.h"
 #include "foothold/evaluation/train_test.h"
 #include "foothold/io/image_file.h"
+#include "foothold/relocalisation/forest_relocaliser.h"
 #include "outputs.h"
 #include "scene_tables.h"
+#include "trust_evidence.h"
 #include "trust_questions.h"
 #include "trust_report.h"
 
@@ -23,6 +27,7 @@ struct TrustOptions {
   TrustAmounts amounts;
   bool quick = false;
   std::string pictures;
+  std::string evidence;
   int most_pictures = 24;
 };
 
@@ -173,6 +178,28 @@ int run_trust(const TrustOptions& options) {
   return apps::kSuccess;
 }
 
+/// Writes what the forest's confidence is made from, instead of measuring it.
+int write_evidence(const TrustOptions& options) {
+  const SceneOptions& scenes = options.scenes;
+  const MethodInputs inputs = method_inputs(scenes.common, find_methods({"forest"}));
+  const std::vector<TrustSubject> subjects = load_subjects(options.amounts, open_scenes(scenes), scenes.common.device.num_threads);
+  ForestRelocaliser relocaliser(apps::make_context(scenes.common.device), *inputs.forest, inputs.settings.forest);
+  EvidenceTable table;
+  apps::ProgressBar bar("maps", static_cast<int>(subjects.size()));
+  try {
+    for (std::size_t map = 0; map < subjects.size(); ++map) {
+      table.add(relocaliser, subjects[map], questions_for(subjects, map, options.amounts, scenes.common.seed), scenes.num_settling_updates);
+      bar.advance();
+    }
+  } catch (const Interrupted&) {
+    return apps::kInterrupted;
+  }
+  AtomicFile file(options.evidence);
+  file.stream() << table.csv();
+  file.commit();
+  return apps::kSuccess;
+}
+
 /// Numbers as typed; those below 0 were not.
 struct TypedAmounts {
   int num_rooms = -1;
@@ -224,12 +251,21 @@ Command add_trust_command(apps::CommandLine& app) {
   add_amount(command, "--spoilt", typed->num_spoilt, "Views of each kind that is spoilt, or changed, to ask each map about",
              {full.num_spoilt, quick.num_spoilt}, 1);
   command.add_option("--pictures", options->pictures, "Draw the first wrong answers that are believed to PREFIX.N.png").type_name("PREFIX");
+  command
+      .add_option("--evidence", options->evidence,
+                  "Instead, write what the forest's confidence in each answer is made from to FILE, to fit it (scripts/fit_confidence.py)")
+      .type_name("FILE.csv");
+  command
+      .add_option(
+          "--first-room", options->amounts.first_room,
+          "Learn rooms training-N, N + 1, ... alone; from 100 on they are for tests, and come behind the named rooms if this is not given")
+      .range(0, 100000);
   add_forest_option(command, options->scenes.common);
   add_experiment_options(command, options->scenes.common);
   add_plot_option(command, options->scenes.common, "Draw risk against coverage, reliability and how questions ended to FILE.png");
   return {command, [options, typed] {
             options->amounts = amounts_of(*typed, options->quick);
-            return run_trust(*options);
+            return options->evidence.empty() ? run_trust(*options) : write_evidence(*options);
           }};
 }
 

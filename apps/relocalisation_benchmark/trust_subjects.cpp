@@ -84,10 +84,13 @@ void add_alike_rooms(const TrustAmounts& amounts, TrustSubject& subject, std::ve
   }
 }
 
-std::vector<std::string> room_names(int count) {
-  std::vector<std::string> names = synthetic_room_names();
-  names.resize(static_cast<std::size_t>(std::min(count, static_cast<int>(names.size()))));
-  for (int k = 0; static_cast<int>(names.size()) < count; ++k) names.push_back("training-" + std::to_string(kFirstTrainingRoom + k));
+std::vector<std::string> room_names(const TrustAmounts& amounts) {
+  const auto count = static_cast<std::size_t>(amounts.num_rooms);
+  std::vector<std::string> names;
+  if (amounts.first_room < 0) names = synthetic_room_names();
+  if (names.size() > count) names.resize(count);
+  const int first = amounts.first_room < 0 ? kFirstTrainingRoom : amounts.first_room;
+  for (int k = 0; names.size() < count; ++k) names.push_back("training-" + std::to_string(first + k));
   return names;
 }
 
@@ -101,7 +104,7 @@ FrameList some_frames(const FrameList& frames, int count) {
 }
 
 std::vector<TrustSubject> load_subjects(const TrustAmounts& amounts, const std::vector<Scene>& recordings, int num_threads) {
-  const std::vector<std::string> rooms = room_names(amounts.num_rooms);
+  const std::vector<std::string> rooms = room_names(amounts);
   std::vector<TrustSubject> subjects(rooms.size() + recordings.size() + (rooms.empty() ? 0 : 1));
   std::vector<ReadJob> jobs;
   std::vector<std::pair<FrameList, FrameList>> alike;

@@ -29,6 +29,7 @@ struct TrustAmounts {
   int num_own = 60;         ///< views of each scene that are not learnt
   int num_strangers = 400;  ///< views of other scenes asked of each map
   int num_spoilt = 16;      ///< views of each kind that is spoilt or changed
+  int first_room = -1;      ///< if not negative, training rooms from this one on instead
   RoomViews views;
 };
 

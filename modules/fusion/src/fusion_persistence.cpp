@@ -46,6 +46,7 @@ void FusionPipeline::load(std::istream& stream) {
   world_from_camera_ = world_from_camera;
   started_ = started != 0;
   loss_forced_ = false;
+  candidates_.clear();
   policy_.reset();
   if (started_) policy_.update(TrackingQuality::kFailed, RelocalisationOutcome::kNothing);
 }

@@ -7,10 +7,23 @@
 #include "foothold/base/contract.h"
 
 namespace foothold {
+namespace {
+
+/// Between two frames of a lost camera, within which tracking them against each other is believed (T: replay_sequence, rooms).
+constexpr float kMaxLostMotionM = 0.3F;
+constexpr float kMaxLostMotionDeg = 20.0F;
+constexpr float kMinLostInliers = 0.6F;
+/// From the last view that confirmed a pose, to one that may do so again (T: replay_sequence, rooms).
+constexpr float kNewViewM = 0.10F;
+constexpr float kNewViewDeg = 8.0F;
+
+}  // namespace
 
 void FusionSettings::validate() const {
   validate_settings(*this);
   volume.validate();
+  recovery.validate();
+  candidates.validate();
   refiner.validate();
 }
 
@@ -24,7 +37,9 @@ FusionPipeline::FusionPipeline(const Context& context, const FusionSettings& set
       comparer_(context, settings.volume.depth_range()),
       refiner_(context, settings.refiner, settings.volume.depth_range()),
       policy_(settings.recovery),
+      candidates_(settings.candidates),
       rendering_(context.memory()),
+      lost_surface_(context.memory()),
       guess_(context.memory()) {
   settings.validate();
 }
@@ -33,8 +48,11 @@ FusionPipeline::FusionPipeline(const FusionPipeline& other, Relocaliser* relocal
     : FusionPipeline(other.context_, other.settings_, relocaliser) {
   volume_ = other.volume_;
   policy_ = other.policy_;
+  candidates_ = other.candidates_;
   rendering_ = other.rendering_;
+  lost_surface_ = other.lost_surface_;
   world_from_camera_ = other.world_from_camera_;
+  explained_world_from_camera_ = other.explained_world_from_camera_;
   started_ = other.started_;
   loss_forced_ = other.loss_forced_;
 }
@@ -52,7 +70,9 @@ void FusionPipeline::start_at(const SE3& world_from_camera) {
 void FusionPipeline::reset() {
   volume_.reset();
   policy_.reset();
+  candidates_.clear();
   rendering_ = SurfaceMap(context_.memory());
+  lost_surface_ = SurfaceMap(context_.memory());
   world_from_camera_ = SE3{};
   started_ = false;
   loss_forced_ = false;
@@ -100,7 +120,7 @@ void FusionPipeline::follow(const Frame& frame, bool usable, bool may_track, Fus
     sighting.outcome = RelocalisationOutcome::kNothing;
     if (usable) relocalise(frame, sighting, result);
   }
-  const RecoveryDecision decision = policy_.update(sighting.tracked, sighting.outcome);
+  const RecoveryDecision decision = policy_.update(sighting.tracked, sighting.outcome, sighting.is_new_view);
   result.state = decision.state;
   if (decision.pose == PoseSource::kNone) {
     result.confidence = 0.0F;
@@ -108,6 +128,8 @@ void FusionPipeline::follow(const Frame& frame, bool usable, bool may_track, Fus
   }
   result.relocalised = decision.pose == PoseSource::kRelocaliser;
   world_from_camera_ = result.relocalised ? sighting.found.world_from_camera : sighting.tracked_world_from_camera;
+  candidates_.clear();
+  if (result.relocalised || sighting.is_new_view) explained_world_from_camera_ = world_from_camera_;
   result.world_from_camera = world_from_camera_;
   if (decision.fuse) {
     fuse(frame, result);
@@ -138,10 +160,12 @@ void FusionPipeline::track(const Frame& frame, Sighting& sighting, FusionFrameRe
     const RefinedPose view = refiner_.rate(tracked.measures, result.agreement);
     result.confidence = std::min(result.confidence, view.probability);
     if (!is_near(tracked.world_from_camera, world_from_camera_, settings_.max_motion_m, settings_.max_motion_deg) ||
-        view.probability < settings_.min_view_probability) {
+        view.probability < settings_.min_view_probability || (policy_.is_unconfirmed() && view.contradicted)) {
       result.quality = TrackingQuality::kPoor;
     }
     if (refiner_.is_hopeless(view)) result.quality = TrackingQuality::kFailed;
+    sighting.is_new_view = result.quality == TrackingQuality::kGood && view.probability > refiner_.acceptance_probability() &&
+                           !is_near(tracked.world_from_camera, explained_world_from_camera_, kNewViewM, kNewViewDeg);
   }
   sighting.tracked = result.quality;
   sighting.tracked_world_from_camera = tracked.world_from_camera;
@@ -152,19 +176,15 @@ void FusionPipeline::track(const Frame& frame, Sighting& sighting, FusionFrameRe
 void FusionPipeline::relocalise(const Frame& frame, Sighting& sighting, FusionFrameResult& result) {
   const ScopedStage stage(context_, "fusion/relocalise");
   const Stopwatch watch;
+  const bool is_lost = sighting.tracked == TrackingQuality::kFailed;
   icp_.set_frame(frame);
   if (!icp_.sees_depth()) return;
-  std::vector<PoseEstimate> proposals;
-  if (sighting.tracked == TrackingQuality::kFailed) proposals.push_back({world_from_camera_, 0.0F});
-  if (relocaliser_ != nullptr) {
-    result.relocaliser_asked = true;
-    const std::vector<PoseEstimate> estimates = relocaliser_->relocalise(frame);
-    proposals.insert(proposals.end(), estimates.begin(), estimates.end());
-  }
-  const std::vector<RefinedPose> refined = refiner_.refine(frame, volume_, proposals);
+  if (is_lost) carry_candidates();
+  const std::vector<RefinedPose> refined = refiner_.refine(frame, volume_, propose(frame, is_lost, result));
+  const RefinedPose* const chosen = choose(refined, is_lost);
   result.relocalise_ms = watch.elapsed_ms();
-  if (refined.empty() || !refined.front().accepted) return;
-  const RefinedPose& found = refined.front();
+  if (chosen == nullptr) return;
+  const RefinedPose& found = *chosen;
   const TrackingGrade grade = grade_tracking(found.measures);
   if (grade.quality != TrackingQuality::kGood) return;
   if (sighting.tracked != TrackingQuality::kFailed) {
@@ -181,6 +201,51 @@ void FusionPipeline::relocalise(const Frame& frame, Sighting& sighting, FusionFr
   result.quality_score = grade.score;
   result.confidence = found.probability;
   result.agreement = found.agreement;
+}
+
+/// Moves the candidates with the camera, as far as this frame can be tracked against the last; forgets them where it cannot.
+void FusionPipeline::carry_candidates() {
+  if (candidates_.empty() || lost_surface_.empty()) return;
+  const TrackingResult motion = icp_.track(lost_surface_, SE3{});
+  const bool is_tracked = motion.measures.well_posed && motion.measures.inlier_fraction >= kMinLostInliers &&
+                          is_near(motion.world_from_camera, SE3{}, kMaxLostMotionM, kMaxLostMotionDeg);
+  if (is_tracked) {
+    candidates_.move(motion.world_from_camera);  // the world of the last frame's surface is that frame's camera
+  } else {
+    candidates_.clear();
+  }
+}
+
+/// Where the camera may be: where the relocaliser says, where earlier views left it, and, if lost, where it was last.
+std::vector<PoseEstimate> FusionPipeline::propose(const Frame& frame, bool is_lost, FusionFrameResult& result) {
+  std::vector<PoseEstimate> carried = is_lost ? candidates_.proposals() : std::vector<PoseEstimate>{};
+  if (is_lost) carried.push_back({world_from_camera_, 0.0F});
+  std::vector<PoseEstimate> proposals;
+  if (relocaliser_ != nullptr) {
+    result.relocaliser_asked = true;
+    proposals = relocaliser_->relocalise(frame);
+  }
+  const std::size_t room = static_cast<std::size_t>(settings_.refiner.max_candidates) -
+                           std::min(carried.size(), static_cast<std::size_t>(settings_.refiner.max_candidates) - 1);
+  if (proposals.size() > room) proposals.resize(room);
+  proposals.insert(proposals.end(), carried.begin(), carried.end());
+  return proposals;
+}
+
+/// The pose to believe: one that this view alone settles, unless earlier views speak for another, or one that all of them settle.
+const RefinedPose* FusionPipeline::choose(Span<const RefinedPose> refined, bool is_lost) {
+  if (refined.empty()) return nullptr;
+  const RefinedPose* const best = refined.data();
+  if (!is_lost) return best->accepted ? best : nullptr;
+  candidates_.weigh(refined);
+  const RefinedPose* chosen = best->accepted && candidates_.is_likeliest(best->world_from_camera) ? best : nullptr;
+  if (const SE3* const alone = candidates_.standing_alone(); chosen == nullptr && alone != nullptr) {
+    for (const RefinedPose& pose : refined) {
+      if (chosen == nullptr && is_near(pose.world_from_camera, *alone, kSamePoseM, kSamePoseDeg)) chosen = &pose;
+    }
+  }
+  icp_.make_surface(lost_surface_);
+  return chosen;
 }
 
 void FusionPipeline::fuse(const Frame& frame, FusionFrameResult& result) {

@@ -50,6 +50,29 @@ TEST_CASE("IcpTracker: recovers known motions against a rendered map") {
   }
 }
 
+TEST_CASE("IcpTracker: frames are tracked against each other where there is no map") {
+  const Scene scene;
+  const Context context = make_context(1);
+  IcpTracker tracker(context, kSmallImage);
+  Random random = test::test_random();
+  const SE3 first = test::pose_on_arc(0.5F);
+  const RgbdFrame before = test::render(scene, first);
+  SurfaceMap surface;
+  for (int i = 0; i < 6; ++i) {
+    tracker.set_frame(before.view());
+    tracker.make_surface(surface);
+    REQUIRE(surface.num_renderings() == 1);
+    const SE3 motion = test::random_motion(random, 0.04F, 0.03F);
+    const RgbdFrame after = test::render(scene, first * motion);
+    tracker.set_frame(after.view());
+    const TrackingResult result = tracker.track(surface, SE3{});
+    REQUIRE(result.measures.well_posed);
+    REQUIRE(translation_distance_m(result.world_from_camera, motion) < 0.003F);
+    REQUIRE(rotation_distance_rad(result.world_from_camera, motion) < 0.003F);
+    REQUIRE(result.measures.inlier_fraction > 0.8F);
+  }
+}
+
 TEST_CASE("IcpTracker: survives a quarter of the image being covered") {
   const Scene scene;
   const Context context = make_context(1);

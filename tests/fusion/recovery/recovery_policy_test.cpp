@@ -97,6 +97,29 @@ TEST_CASE("RecoveryPolicy: settling, good: nothing is learnt for the whole hold,
   require(step(policy, Quality::kGood), State::kTracking, PoseSource::kTracker, true);
 }
 
+TEST_CASE("RecoveryPolicy: settling on a recovered pose lasts until views from new places confirmed it") {
+  RecoveryPolicy policy = recovered_policy();
+  REQUIRE(policy.is_unconfirmed());
+  const auto good = [&](bool is_new_view) {
+    return policy.update(Quality::kGood, policy.should_relocalise(Quality::kGood) ? Outcome::kConfirms : Outcome::kNotAsked, is_new_view);
+  };
+  for (int i = 0; i < 10 * kSettleFrames; ++i) require(good(false), State::kSettling, PoseSource::kTracker, false);
+  require(good(true), State::kSettling, PoseSource::kTracker, false);
+  REQUIRE(policy.is_unconfirmed());
+  require(good(true), State::kTracking, PoseSource::kTracker, true);
+
+  step(policy, Quality::kPoor);  // a pose that was tracked needs no views
+  REQUIRE_FALSE(policy.is_unconfirmed());
+  for (int i = 0; i < kSettleAfterPoor; ++i) require(good(false), State::kSettling, PoseSource::kTracker, false);
+  require(good(false), State::kTracking, PoseSource::kTracker, true);
+}
+
+TEST_CASE("RecoveryPolicy: a recovered pose that nothing has confirmed is taken back after few poor frames") {
+  RecoveryPolicy policy = recovered_policy();
+  for (int i = 0; i < kMaxPoor / 5; ++i) require(step(policy, Quality::kPoor), State::kSettling, PoseSource::kTracker, false);
+  require(step(policy, Quality::kPoor), State::kLost, PoseSource::kNone, false);
+}
+
 TEST_CASE("RecoveryPolicy: settling, poor: the good frames must follow one another, and too many poor ones in a row are a loss") {
   RecoveryPolicy policy = recovered_policy();
   for (int i = 0; i < kSettleFrames; ++i) step(policy, Quality::kGood);

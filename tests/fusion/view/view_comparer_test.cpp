@@ -38,6 +38,9 @@ TEST_CASE("ViewComparer: a frame agrees with a map that it helped to make") {
   REQUIRE(view.agreement > 0.97F);
   REQUIRE(view.in_front < 0.02F);
   REQUIRE(view.behind < 0.02F);
+  REQUIRE(view.solid_in_front < 0.001F);
+  REQUIRE(view.solid_behind < 0.001F);
+  REQUIRE(view.unlike_texture < 0.1F);
   REQUIRE(view.difference < 0.25F);
   REQUIRE(view.colour_correlation > 0.9F);
 }
@@ -52,6 +55,9 @@ TEST_CASE("ViewComparer: something in free space is in front, a missing thing is
   const ViewAgreement hand = compare(context, frame, model.map, model.pose);
   REQUIRE(hand.in_front == Approx(0.25F).margin(0.02F));
   REQUIRE(hand.behind < 0.02F);
+  REQUIRE(hand.solid_in_front > 0.2F);
+  REQUIRE(hand.solid_in_front <= hand.in_front);
+  REQUIRE(hand.solid_behind < 0.001F);
   REQUIRE(hand.difference > 0.6F);
 
   Scene without_sphere;
@@ -59,6 +65,26 @@ TEST_CASE("ViewComparer: something in free space is in front, a missing thing is
   const ViewAgreement gone = compare(context, test::render(without_sphere, model.pose), model.map, model.pose);
   REQUIRE(gone.behind > 0.05F);
   REQUIRE(gone.in_front < 0.02F);
+  REQUIRE(gone.solid_behind > 0.04F);
+  REQUIRE(gone.solid_in_front < 0.001F);
+}
+
+TEST_CASE("ViewComparer: single wrong pixels, and differences as small as noise, are nothing solid") {
+  const Context context = make_context();
+  const Model model(context);
+  RgbdFrame frame = test::render(Scene{}, model.pose);
+  for (int v = 2; v < 240; v += 12) {
+    for (int u = 2; u < 320; u += 12) frame.depth(u, v) += 1.0F;  // compared pixels, every third in both directions
+  }
+  const ViewAgreement speckled = compare(context, frame, model.map, model.pose);
+  REQUIRE(speckled.behind > 0.08F);
+  REQUIRE(speckled.solid_behind == 0.0F);
+
+  RgbdFrame biased = test::render(Scene{}, model.pose);
+  for (std::size_t i = 0; i < biased.depth.size(); ++i) biased.depth.data()[i] += 0.05F;
+  const ViewAgreement off = compare(context, biased, model.map, model.pose);
+  REQUIRE(off.behind > 0.5F);
+  REQUIRE(off.solid_behind < 0.01F);
 }
 
 TEST_CASE("ViewComparer: what falls outside the rendering does not overlap") {
@@ -80,6 +106,7 @@ TEST_CASE("ViewComparer: colour that differs correlates less, the dark and the c
     pixel = {static_cast<std::uint8_t>(255 - pixel.r), static_cast<std::uint8_t>(255 - pixel.g), static_cast<std::uint8_t>(255 - pixel.b)};
   }
   REQUIRE(compare(context, mirrored, model.map, model.pose).colour_correlation < -0.9F);
+  REQUIRE(compare(context, mirrored, model.map, model.pose).unlike_texture == 1.0F);
   RgbdFrame dark = test::render(Scene{}, model.pose);
   for (std::size_t i = 0; i < dark.colour.size(); ++i) dark.colour.data()[i] = {};
   REQUIRE(compare(context, dark, model.map, model.pose).colour_correlation == 0.0F);

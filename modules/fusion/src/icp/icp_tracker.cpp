@@ -122,6 +122,18 @@ bool IcpTracker::sees_depth() {
          }) > 0;
 }
 
+void IcpTracker::make_surface(SurfaceMap& surface) const {
+  const DepthLevel& level = scratch_->levels[levels_.finest];
+  FOOTHOLD_EXPECTS(!level.depth.empty() && surface.pixels.memory() == context_.memory());
+  surface.camera = {level.intrinsics, level.depth.width, level.depth.height, SE3{}};
+  surface.world_from_cameras.assign(context_, Span<const SE3>(&surface.camera.world_from_camera, 1));
+  surface.pixels.resize(level.depth.size());
+  surface.colours.resize(0);
+  dispatch(context_, [&](auto on) {
+    IcpAlgorithms<typename decltype(on)::Executor>::make_surface(context_, levels_.finest, range_, *scratch_, surface);
+  });
+}
+
 TrackingResult IcpTracker::track(const SurfaceMap& model, const SE3& guess_world_from_camera) {
   scratch_->guess.assign(context_, Span<const SE3>(&guess_world_from_camera, 1));
   align_all(model, scratch_->guess);

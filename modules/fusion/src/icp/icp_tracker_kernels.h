@@ -21,6 +21,8 @@ struct IcpAlgorithms {
   static void build_pyramid(const Context& context, const IcpLevels& levels, const DepthRange& range, Scratch& scratch);
   /// The number of pixels at a level whose depth is in range.
   static std::uint32_t count_depth(const Context& context, int level, const DepthRange& range, Scratch& scratch);
+  /// Makes a rendering of the frame's depth at a level.
+  static void make_surface(const Context& context, int level, const DepthRange& range, const Scratch& scratch, SurfaceMap& surface);
   /// Runs all levels for every rendering of `models` at once, from as many guesses, and leaves states and poses in `scratch`.
   static void align(const Context& context, const IcpLevels& levels, const DepthRange& range, const SurfaceMap& models, const SE3* guesses,
                     Scratch& scratch);
@@ -50,6 +52,13 @@ std::uint32_t IcpAlgorithms<Executor>::count_depth(const Context& context, int l
   exec.for_each(num_rows, CountRow{depth, range, scratch.row_counts.data()});
   exec.exclusive_scan(Span<const std::uint32_t>(scratch.row_counts), Span<std::uint32_t>(scratch.row_offsets));
   return scratch.row_offsets.read(context, num_rows);
+}
+
+template <class Executor>
+void IcpAlgorithms<Executor>::make_surface(const Context& context, int level, const DepthRange& range, const Scratch& scratch,
+                                           SurfaceMap& surface) {
+  const Executor exec(context);
+  exec.for_each(surface.pixels.size(), MakeSurfacePixel{scratch.levels[level], range, surface.pixels.data()});
 }
 
 template <class Executor>

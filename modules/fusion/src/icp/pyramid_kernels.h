@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// Halving a depth image, and counting its pixels with depth.
+/// Halving a depth image, making a surface of it, and counting its pixels with depth.
 #pragma once
 
+#include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 
-#include "foothold/base/image.h"
-#include "foothold/fusion/tsdf_volume.h"
+#include "icp/icp_state.h"
 
 namespace foothold {
 
@@ -32,6 +33,43 @@ struct HalveDepth {
       count += same ? 1.0F : 0.0F;
     }
     coarse[i] = nearest_m <= range.max_m ? sum / count : 0.0F;
+  }
+};
+
+/// Makes a rendering of a frame: its own depth with the normals of neighbouring pixels.
+struct MakeSurfacePixel {
+  DepthLevel level;
+  DepthRange range;
+  SurfacePixel* surface;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    const int u = static_cast<int>(i) % level.depth.width;
+    const int v = static_cast<int>(i) / level.depth.width;
+    SurfacePixel pixel;
+    const float depth_m = level.depth(u, v);
+    pixel.depth_m = range.holds(depth_m) ? depth_m : 0.0F;
+    const bool inside = u > 0 && v > 0 && u < level.depth.width - 1 && v < level.depth.height - 1;
+    if (inside && pixel.depth_m > 0.0F) {
+      constexpr float kSameSurface = 0.05F;  // of the depth
+      const float depths_m[4] = {level.depth(u - 1, v), level.depth(u + 1, v), level.depth(u, v - 1), level.depth(u, v + 1)};
+      bool is_smooth = true;
+      for (const float neighbour_m : depths_m) is_smooth &= std::abs(neighbour_m - depth_m) < kSameSurface * depth_m;
+      const auto x = static_cast<float>(u);
+      const auto y = static_cast<float>(v);
+      const Eigen::Vector3f along_u =
+          level.intrinsics.back_project(x + 1.0F, y, depths_m[1]) - level.intrinsics.back_project(x - 1.0F, y, depths_m[0]);
+      const Eigen::Vector3f along_v =
+          level.intrinsics.back_project(x, y + 1.0F, depths_m[3]) - level.intrinsics.back_project(x, y - 1.0F, depths_m[2]);
+      const Eigen::Vector3f across = along_v.cross(along_u);
+      const float length = across.norm();
+      if (is_smooth && length > 0.0F) {
+        const Eigen::Vector3f normal = across / length;
+        pixel.normal_x = normal.x();
+        pixel.normal_y = normal.y();
+        pixel.normal_z = normal.z();
+      }
+    }
+    surface[i] = pixel;
   }
 };
 

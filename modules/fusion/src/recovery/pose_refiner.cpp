@@ -21,8 +21,7 @@ bool is_same(const SE3& a, const SE3& b) { return is_near(a, b, kSamePoseM, kSam
 constexpr float kSlideStepM = 0.15F;
 
 /// Of acceptance_features().
-constexpr std::size_t kColourFeature = 5;
-constexpr std::size_t kTextureFeature = 6;
+constexpr std::size_t kColourFeatures[] = {7, 8, 9};
 /// Below this probability a pose is hopeless, whatever the poor threshold says: rendered rooms, from which that stems, are kinder than real
 /// ones. (T: relocalisation_benchmark, kitchen)
 constexpr double kHopelessProbability = 0.02;
@@ -51,21 +50,19 @@ void PoseRefinerSettings::validate() const {
 }
 
 std::array<float, kNumAcceptanceFeatures> acceptance_features(const TrackingMeasures& measures, const ViewAgreement& agreement) {
-  return {agreement.overlap,
-          agreement.agreement,
-          agreement.in_front,
-          agreement.behind,
-          agreement.difference,
-          agreement.colour_correlation,
-          agreement.texture_correlation,
-          measures.log_det_valid,
-          measures.residual_m,
+  return {agreement.overlap,        agreement.agreement,          agreement.in_front,
+          agreement.behind,         agreement.solid_in_front,     agreement.solid_behind,
+          agreement.difference,     agreement.colour_correlation, agreement.texture_correlation,
+          agreement.unlike_texture, measures.log_det_valid,       measures.residual_m,
           measures.inlier_fraction};
 }
 
 std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names() {
-  return {"overlap",       "agreement", "in_front",       "behind", "difference", "colour_correlation", "texture_correlation",
-          "log_det_valid", "residual",  "inlier_fraction"};
+  return {"overlap",        "agreement",          "in_front",
+          "behind",         "solid_in_front",     "solid_behind",
+          "difference",     "colour_correlation", "texture_correlation",
+          "unlike_texture", "log_det_valid",      "residual",
+          "inlier_fraction"};
 }
 
 PoseRefiner::PoseRefiner(const Context& context, const PoseRefinerSettings& settings, const DepthRange& range,
@@ -104,13 +101,14 @@ RefinedPose PoseRefiner::rate(const TrackingMeasures& measures, const ViewAgreem
   RefinedPose result;
   result.measures = measures;
   result.agreement = agreement;
+  result.contradicted = agreement.solid_behind > kMostSolidBehind;
   if (!measures.well_posed || agreement.overlap < kMinOverlap) {
     result.score = -std::numeric_limits<float>::infinity();
     return result;
   }
   std::array<float, kNumAcceptanceFeatures> features = acceptance_features(measures, agreement);
   if (!has_colour(agreement)) {  // a feature at its mean speaks neither for nor against
-    for (const std::size_t i : {kColourFeature, kTextureFeature}) features[i] = classifier_.features[i].mean;
+    for (const std::size_t i : kColourFeatures) features[i] = classifier_.features[i].mean;
   }
   result.score = classifier_.score(Span<const float>(features.data(), features.size()));
   result.probability = classifier_.probability(result.score);
@@ -167,7 +165,7 @@ RefinedPose PoseRefiner::refine_one(const Frame& frame, const TsdfVolume& volume
   fine_icp_.set_frame(frame);
   comparer_.set_frame(frame);
   RefinedPose result = align_finely(frame, volume, Span<const SE3>(&proposal, 1)).front();
-  result.accepted = has_colour(result.agreement) && is_good(result);
+  result.accepted = has_colour(result.agreement) && is_good(result) && !result.contradicted;
   return result;
 }
 
@@ -256,7 +254,7 @@ std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolum
   RefinedPose& best = finalists.front();
   const bool is_ambiguous =
       std::any_of(finalists.begin() + 1, finalists.end(), [&](const RefinedPose& other) { return is_rival(other, best); });
-  best.accepted = has_colour(best.agreement) && is_good(best) && !is_ambiguous;
+  best.accepted = has_colour(best.agreement) && is_good(best) && !best.contradicted && !is_ambiguous;
   return finalists;
 }
 

@@ -29,11 +29,12 @@ RecoveryDecision RecoveryPolicy::settle(int num_frames, PoseSource pose) {
   state_ = RecoveryState::kSettling;
   settle_length_ = num_frames;
   good_frames_left_ = num_frames;
+  if (pose == PoseSource::kRelocaliser) views_left_ = settings_.confirming_views;
   num_settling_ = 0;
   return {state_, pose, false, false};
 }
 
-RecoveryDecision RecoveryPolicy::update(TrackingQuality tracked, RelocalisationOutcome outcome) {
+RecoveryDecision RecoveryPolicy::update(TrackingQuality tracked, RelocalisationOutcome outcome, bool is_new_view) {
   FOOTHOLD_EXPECTS(outcome != RelocalisationOutcome::kNotAsked || !should_relocalise(tracked));
   FOOTHOLD_EXPECTS(state_ != RecoveryState::kLost || tracked == TrackingQuality::kFailed);
   const bool accepted = outcome == RelocalisationOutcome::kElsewhere || outcome == RelocalisationOutcome::kConfirms;
@@ -49,7 +50,8 @@ RecoveryDecision RecoveryPolicy::update(TrackingQuality tracked, RelocalisationO
     return settle(settings_.settle_frames, PoseSource::kRelocaliser);
   }
   if (tracked == TrackingQuality::kPoor) {
-    if (num_poor_ > settings_.max_poor_frames) {
+    constexpr int kUnconfirmedShare = 5;
+    if (num_poor_ > settings_.max_poor_frames / (is_unconfirmed() ? kUnconfirmedShare : 1)) {
       state_ = RecoveryState::kLost;
       num_poor_ = 0;
       return {state_, PoseSource::kNone, false, false};
@@ -61,7 +63,12 @@ RecoveryDecision RecoveryPolicy::update(TrackingQuality tracked, RelocalisationO
   }
   if (state_ == RecoveryState::kSettling) {
     ++num_settling_;
-    if (good_frames_left_-- > 0) return {state_, PoseSource::kTracker, false, false};
+    if (is_new_view && views_left_ > 0) --views_left_;
+    if (good_frames_left_ > 0) {
+      --good_frames_left_;
+      return {state_, PoseSource::kTracker, false, false};
+    }
+    if (views_left_ > 0) return {state_, PoseSource::kTracker, false, false};
     state_ = RecoveryState::kTracking;
   }
   return {state_, PoseSource::kTracker, true, true};

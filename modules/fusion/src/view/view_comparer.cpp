@@ -53,9 +53,12 @@ ViewAgreement summarise(const ViewTotals& totals) {
   result.agreement = part(sums[kAgree], sums[kOverlap]);
   result.in_front = part(sums[kFront], sums[kOverlap]);
   result.behind = part(sums[kBehind], sums[kOverlap]);
+  result.solid_in_front = part(sums[kSolidFront], sums[kOverlap]);
+  result.solid_behind = part(sums[kSolidBehind], sums[kOverlap]);
   result.difference = part(sums[kDifference], sums[kOverlap]);
   result.colour_correlation = correlation(moments_of(sums), kMinShade);
   result.texture_correlation = correlation(totals.texture, kMinTexture);
+  result.unlike_texture = part(totals.num_unlike, totals.num_textured);
   return result;
 }
 }  // namespace

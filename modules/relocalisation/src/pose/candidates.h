@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "foothold/base/se3.h"
+#include "pose/rank.h"
 
 namespace foothold {
 
@@ -15,14 +16,13 @@ inline constexpr float kFineInlierDistanceM = 0.025F;
 /// A hypothesis that came far, with what its pose explains of the whole pool.
 struct PoseCandidate {
   SE3 scene_from_camera;
-  float mean_energy = 0.0F;            ///< truncated Mahalanobis distance per pooled pixel, Eq. 4
-  float inlier_fraction = 0.0F;        ///< pooled pixels with a mode within kInlierDistanceM, among all pooled pixels with depth
-  float fine_fraction = 0.0F;          ///< the same within kFineInlierDistanceM
-  float surface_fit = 0.0F;            ///< how well samples lie on the remembered surface, 0 to 1; 0 for candidates that were not aligned
-  float contradicted_fraction = 0.0F;  ///< SceneEvidence's; 0 if the plan does not confront the scene
-  float alike_fraction = 0.0F;         ///< SceneEvidence's; 0 if the plan does not confront the scene
+  float mean_energy = 0.0F;      ///< truncated Mahalanobis distance per pooled pixel, Eq. 4
+  float inlier_fraction = 0.0F;  ///< pooled pixels with a mode within kInlierDistanceM, among all pooled pixels with depth
+  float fine_fraction = 0.0F;    ///< the same within kFineInlierDistanceM
+  float surface_fit = 0.0F;      ///< how well samples lie on the remembered surface, 0 to 1; 0 for candidates that were not aligned
+  SceneAgreement agreement{};    ///< of the best; not valid for others, or if the plan does not confront the scene
   std::int32_t valid = 0;
 };
-static_assert(sizeof(PoseCandidate) == 76, "copied from the device");
+static_assert(sizeof(PoseCandidate) == 96, "copied from the device");
 
 }  // namespace foothold

@@ -3,26 +3,52 @@
 /// How far a candidate can be believed.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "pose/candidates.h"
 
 namespace foothold {
 
-/// The probability that a candidate is within 10 cm and 10 deg of the truth, by logistic regression.
-/// (T) Fitted to relocalisations of two real recordings and of rendered rooms, queries from other scenes among them; the last line's
-/// intercept was then lowered by 1.2, since wrong answers cost more than missing ones.
+inline constexpr std::size_t kNumConfidenceFeatures = 8;
+
+/// What the confidence in an aligned candidate is made from, and how much each counts.
+struct ConfidenceFeature {
+  const char* name;
+  float weight;
+};
+inline constexpr std::array<ConfidenceFeature, kNumConfidenceFeatures> kConfidenceFeatures{{{"log_inliers", 0.0F},
+                                                                                            {"log_fine_inliers", 3.0F},
+                                                                                            {"surface_fit", 0.0F},
+                                                                                            {"agreeing", 0.0F},
+                                                                                            {"contradicted", -19.4F},
+                                                                                            {"colour_correlation", 2.4F},
+                                                                                            {"contradicted_tiles", 0.0F},
+                                                                                            {"explained_tiles", 0.0F}}};
+inline constexpr float kConfidenceIntercept = 13.2F;
+
+inline std::array<float, kNumConfidenceFeatures> confidence_features(const PoseCandidate& candidate) {
+  const SceneAgreement& scene = candidate.agreement;
+  return {std::log(candidate.inlier_fraction + 0.01F),
+          std::log(candidate.fine_fraction + 0.005F),
+          candidate.surface_fit,
+          scene.agreeing_fraction,
+          scene.contradicted_fraction,
+          scene.colour_correlation,
+          scene.contradicted_tiles,
+          scene.explained_tiles};
+}
+
+/// The probability that a candidate is within 10 cm and 10 deg of the truth, by logistic regression (T: docs/trust.md).
 inline float confidence_of(const PoseCandidate& candidate) {
-  const float log_inliers = std::log(candidate.inlier_fraction + 0.01F);
-  const float log_fine = std::log(candidate.fine_fraction + 0.005F);
-  const bool judged = candidate.contradicted_fraction + candidate.alike_fraction > 0.0F;
   float log_odds = 0.0F;
-  if (candidate.surface_fit <= 0.0F) {  // not aligned: only the modes speak
-    log_odds = 9.2F + 3.4F * log_inliers;
-  } else if (!judged) {
-    log_odds = 7.7F - 5.3F * log_inliers + 6.8F * log_fine + 19.7F * candidate.surface_fit;
+  if (candidate.agreement.valid == 0) {  // not aligned: only the modes speak
+    log_odds = 9.2F + 3.4F * std::log(candidate.inlier_fraction + 0.01F);
   } else {
-    log_odds = 13.2F + 3.0F * log_fine - 19.4F * candidate.contradicted_fraction + 2.4F * candidate.alike_fraction;
+    const std::array<float, kNumConfidenceFeatures> features = confidence_features(candidate);
+    log_odds = kConfidenceIntercept;
+    for (std::size_t i = 0; i < features.size(); ++i) log_odds += kConfidenceFeatures[i].weight * features[i];
   }
   return 1.0F / (1.0F + std::exp(-log_odds));
 }

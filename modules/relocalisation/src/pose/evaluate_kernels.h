@@ -17,8 +17,8 @@ struct EvaluateCandidates {
   const SampledPixel* sampled;
   std::size_t pool_size;
   HypothesesView hypotheses;
-  const float* misfits;           ///< per slot
-  const SceneEvidence* evidence;  ///< per hypothesis
+  const float* misfits;             ///< per slot
+  const SceneAgreement* agreement;  ///< what the scene says about the one in the first slot
   std::size_t num_candidates;
   float truncation;
   PoseCandidate* candidates;
@@ -46,8 +46,7 @@ struct EvaluateCandidates {
       candidate.inlier_fraction = sums[kWidth + w] * scale;
       candidate.fine_fraction = sums[2 * kWidth + w] * scale;
       candidate.surface_fit = 1.0F - misfits[first_slot + static_cast<std::size_t>(w)];
-      candidate.contradicted_fraction = evidence[poses.index[w]].contradicted_fraction();
-      candidate.alike_fraction = evidence[poses.index[w]].alike_fraction();
+      candidate.agreement = first_slot + static_cast<std::size_t>(w) == 0 ? *agreement : SceneAgreement{};
       candidate.valid = hypotheses.energies[poses.index[w]] < kFailedEnergy ? 1 : 0;
     }
   }

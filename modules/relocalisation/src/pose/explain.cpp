@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 
 #include "foothold/base/contract.h"
+#include "pose/confidence.h"
 
 namespace foothold {
 namespace {
@@ -26,11 +27,16 @@ ExplainedMode explain_mode(const Mode& mode, const Eigen::Vector3f& origin_world
 Explanation explain(const PoseEstimator& estimator, const std::vector<PoseEstimate>& estimates, const Eigen::Vector3f& origin_world) {
   const PoseBuffers& buffers = estimator.buffers();
   Explanation explanation;
-  for (const PoseCandidate& candidate : buffers.candidates.to_host()) {
+  const std::vector<PoseCandidate> candidates = buffers.candidates.to_host();
+  for (const PoseCandidate& candidate : candidates) {
     if (candidate.valid == 0) continue;
     FOOTHOLD_EXPECTS(explanation.candidates.size() < estimates.size());
     const PoseEstimate& estimate = estimates[explanation.candidates.size()];
     explanation.candidates.push_back({estimate.world_from_camera, estimate.confidence, candidate.mean_energy, candidate.inlier_fraction});
+  }
+  const std::array<float, kNumConfidenceFeatures> features = confidence_features(candidates.front());
+  for (std::size_t i = 0; i < features.size() && candidates.front().agreement.valid != 0; ++i) {
+    explanation.evidence.push_back({kConfidenceFeatures[i].name, features[i]});
   }
   const std::vector<PooledPixel> pixels = buffers.pool.pixels.to_host();
   const std::size_t num_pixels = buffers.pool.slots.to_host().back();

@@ -8,12 +8,14 @@
 ///   refine_kernels.h      Levenberg-Marquardt on a hypothesis
 ///   rank_kernels.h        beyond the paper: the last candidates judged by points of the whole scene
 ///   align_kernels.h       beyond the paper: the best candidate aligned with what the scene remembers (surface_, project_kernels.h)
+///   confront_kernels.h    beyond the paper: the best candidate confronted with what the scene remembers
 ///   evaluate_kernels.h    what the candidates explain
 #pragma once
 
 #include <algorithm>
 
 #include "pose/align_kernels.h"
+#include "pose/confront_kernels.h"
 #include "pose/evaluate_kernels.h"
 #include "pose/hypothesis_kernels.h"
 #include "pose/pool_kernels.h"
@@ -72,11 +74,11 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
   for (int round = 0; round < kFinalRounds; ++round) refine(executor, pool, final_refinement, 1, hypotheses, buffers.assignments);
   if (plan.confronts_scene) {
     Aligner<Executor>(context, query, place.reservoirs, forest).run(buffers.pool, buffers.ranking, hypotheses, buffers.alignment);
-    judge(executor, query, 1, hypotheses, buffers.ranking);  // once more, where it is now
+    confront(executor, query, hypotheses, buffers.ranking);
   }
   executor.for_each_team(num_groups<Executor>(num_candidates),
                          EvaluateCandidates<Executor>{pool, buffers.pool.sampled.data(), buffers.pool.sampled.size(), hypotheses.view(),
-                                                      buffers.alignment.misfits.data(), buffers.ranking.evidence.data(), num_candidates,
+                                                      buffers.alignment.misfits.data(), buffers.ranking.agreement.data(), num_candidates,
                                                       plan.energy_truncation, buffers.candidates.data()});
 }
 

@@ -35,15 +35,45 @@ struct SceneEvidence {
 };
 static_assert(sizeof(SceneEvidence) == 12, "lives in device memory");
 
-/// Owns both.
+/// The grid of tiles by which the best pose is confronted with the scene: what is missing is missing in one piece, noise is not (T).
+inline constexpr int kTileColumns = 16;
+inline constexpr int kTileRows = 12;
+inline constexpr int kNumTiles = kTileColumns * kTileRows;
+
+/// Remembered points that project into one tile.
+struct TileCounts {
+  std::uint32_t num_agreeing;      ///< at the measured depth
+  std::uint32_t num_contradicted;  ///< the camera sees through them
+};
+
+/// What all remembered points say about the best pose, once it is aligned.
+struct SceneAgreement {
+  float agreeing_fraction;      ///< of the points in view, at the measured depth
+  float contradicted_fraction;  ///< of the points in view, seen through
+  float alike_fraction;         ///< of the points in view, at the measured depth and of the measured colour
+  float colour_correlation;     ///< of the grey values of agreeing points and their pixels; whatever the light
+  float contradicted_tiles;     ///< of the tiles where the scene is remembered, those most of whose points are seen through
+  float explained_tiles;        ///< of the tiles with depth, those where points agree
+  std::int32_t valid;           ///< 0 if there was nothing to confront the pose with
+};
+static_assert(sizeof(SceneAgreement) == 28, "copied from the device");
+
+/// Owns all of it.
 struct Ranking {
   Ranking(const Memory& memory, int num_points, int num_hypotheses)
-      : points(memory, static_cast<std::size_t>(num_points)), evidence(memory, static_cast<std::size_t>(num_hypotheses)) {
+      : points(memory, static_cast<std::size_t>(num_points)),
+        evidence(memory, static_cast<std::size_t>(num_hypotheses)),
+        tiles(memory, kNumTiles),
+        agreement(memory, 1) {
     evidence.clear_to_zero();
+    tiles.clear_to_zero();
+    agreement.clear_to_zero();
   }
 
   Array<RememberedPoint> points;
   Array<SceneEvidence> evidence;  ///< per hypothesis; zero for those that were not judged
+  Array<TileCounts> tiles;
+  Array<SceneAgreement> agreement;  ///< of the best pose
 };
 
 }  // namespace foothold

@@ -40,6 +40,53 @@ struct DrawRememberedPoint {
   }
 };
 
+/// How a remembered point relates to the frame.
+enum class PointState { kOutOfView, kAgrees, kContradicted, kHidden };
+
+struct PointSighting {
+  PointState state;
+  int pixel;  ///< of the averaged image, that it projects to
+};
+
+/// Looks for a point, given in the camera, among the nine pixels around the one that it projects to: in front of all of them it is seen
+/// through, behind all of them it is hidden.
+FOOTHOLD_HD FOOTHOLD_INLINE PointSighting sight(const FeatureImageView& image, const Intrinsics& intrinsics,
+                                                const Eigen::Vector3f& point_camera) {
+  constexpr float kNearestM = 0.3F;
+  constexpr float kFurthestM = 6.0F;
+  constexpr float kToleranceM = 0.04F;            // (T) of the unaligned poses that are judged
+  constexpr float kToleranceAtOneMetre = 0.005F;  // sensor noise grows with the square of the depth [m]
+  const PointSighting out_of_view{PointState::kOutOfView, 0};
+  const float z = point_camera.z();
+  if (!(z > kNearestM && z < kFurthestM)) return out_of_view;
+  const Eigen::Vector2f position = intrinsics.project(point_camera);
+  const auto u = static_cast<int>(std::floor(position.x() + 0.5F));
+  const auto v = static_cast<int>(std::floor(position.y() + 0.5F));
+  if (u < 1 || v < 1 || u >= image.width - 1 || v >= image.height - 1) return out_of_view;
+  const int pixel = v * image.width + u;
+  if (image.pixels[pixel].depth_mm() <= 0) return out_of_view;
+  int nearest_mm = image.pixels[pixel].depth_mm();
+  int furthest_mm = nearest_mm;
+  for (int dv = -1; dv <= 1; ++dv) {
+    for (int du = -1; du <= 1; ++du) {
+      const int depth_mm = image.pixels[pixel + dv * image.width + du].depth_mm();
+      if (depth_mm <= 0) continue;
+      nearest_mm = depth_mm < nearest_mm ? depth_mm : nearest_mm;
+      furthest_mm = depth_mm > furthest_mm ? depth_mm : furthest_mm;
+    }
+  }
+  const float tolerance_m = kToleranceM + kToleranceAtOneMetre * z * z;
+  if (z < static_cast<float>(nearest_mm) * 1e-3F - tolerance_m) return {PointState::kContradicted, pixel};
+  if (z > static_cast<float>(furthest_mm) * 1e-3F + tolerance_m) return {PointState::kHidden, pixel};
+  return {PointState::kAgrees, pixel};
+}
+
+FOOTHOLD_HD inline bool is_alike(const FeaturePixel& pixel, const RememberedPoint& point) {
+  const std::uint8_t rgb[3] = {static_cast<std::uint8_t>(pixel.r()), static_cast<std::uint8_t>(pixel.g()),
+                               static_cast<std::uint8_t>(pixel.b())};
+  return colour_difference(rgb, point.rgb) < kMaxColourDifference;
+}
+
 /// Projects the points into the frame from each candidate, and counts.
 template <class Executor>
 struct JudgeCandidates {
@@ -66,38 +113,12 @@ struct JudgeCandidates {
   }
 
  private:
-  static constexpr float kNearestM = 0.3F;
-  static constexpr float kFurthestM = 6.0F;
-  static constexpr float kToleranceM = 0.04F;            ///< (T) of the unaligned poses that are judged
-  static constexpr float kToleranceAtOneMetre = 0.005F;  ///< sensor noise grows with the square of the depth [m]
-
   FOOTHOLD_HD FOOTHOLD_INLINE void add_point(const Eigen::Vector3f& point_camera, const RememberedPoint& point, float* counts) const {
-    const float z = point_camera.z();
-    if (!(z > kNearestM && z < kFurthestM)) return;
-    const Eigen::Vector2f pixel = intrinsics.project(point_camera);
-    const auto u = static_cast<int>(std::floor(pixel.x() + 0.5F));
-    const auto v = static_cast<int>(std::floor(pixel.y() + 0.5F));
-    if (u < 1 || v < 1 || u >= image.width - 1 || v >= image.height - 1) return;
-    const FeaturePixel& centre = image.pixels[v * image.width + u];
-    if (centre.depth_mm() <= 0) return;
-    int nearest_mm = centre.depth_mm();
-    int furthest_mm = centre.depth_mm();
-    for (int dv = -1; dv <= 1; ++dv) {
-      for (int du = -1; du <= 1; ++du) {
-        const int depth_mm = image.pixels[(v + dv) * image.width + u + du].depth_mm();
-        if (depth_mm <= 0) continue;
-        nearest_mm = depth_mm < nearest_mm ? depth_mm : nearest_mm;
-        furthest_mm = depth_mm > furthest_mm ? depth_mm : furthest_mm;
-      }
-    }
-    const float tolerance_m = kToleranceM + kToleranceAtOneMetre * z * z;
-    const bool in_front = z < static_cast<float>(nearest_mm) * 1e-3F - tolerance_m;
-    const bool behind = z > static_cast<float>(furthest_mm) * 1e-3F + tolerance_m;
-    const std::uint8_t rgb[3] = {static_cast<std::uint8_t>(centre.r()), static_cast<std::uint8_t>(centre.g()),
-                                 static_cast<std::uint8_t>(centre.b())};
+    const PointSighting sighting = sight(image, intrinsics, point_camera);
+    if (sighting.state == PointState::kOutOfView) return;
     counts[0] += 1.0F;
-    counts[1] += in_front ? 1.0F : 0.0F;
-    counts[2] += !in_front && !behind && colour_difference(rgb, point.rgb) < kMaxColourDifference ? 1.0F : 0.0F;
+    counts[1] += sighting.state == PointState::kContradicted ? 1.0F : 0.0F;
+    counts[2] += sighting.state == PointState::kAgrees && is_alike(image.pixels[sighting.pixel], point) ? 1.0F : 0.0F;
   }
 };
 

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <vector>
 
-#include "foothold/api/relocaliser.h"
-#include "foothold/base/persistent.h"
+#include "foothold/fusion/pose_candidates.h"
 #include "foothold/fusion/pose_refiner.h"
 #include "foothold/fusion/recovery_policy.h"
 
@@ -17,6 +17,7 @@ namespace foothold {
 struct FusionSettings {
   TsdfSettings volume;
   RecoverySettings recovery;
+  PoseCandidatesSettings candidates;
   PoseRefinerSettings refiner;
   /// The map is rendered for tracking in images reduced by this divisor.
   int render_divisor = 4;
@@ -32,6 +33,7 @@ struct FusionSettings {
   static void fields(Visitor& v) {
     v(&FusionSettings::volume, "volume");
     v(&FusionSettings::recovery, "recovery");
+    v(&FusionSettings::candidates, "candidates");
     v(&FusionSettings::refiner, "refiner");
     v(&FusionSettings::render_divisor, "render_divisor",
       "Reduction of the renderings that frames are tracked against (T: fusion_benchmark, kitchen).", Range{1, 16});
@@ -66,7 +68,9 @@ struct FusionFrameResult {
   double total_ms = 0.0;
 };
 
-/// Drives the parts as RecoveryPolicy says. While lost, the map and the relocaliser never change. When lost, the last known pose is a
+/// Drives the parts as RecoveryPolicy says. While lost, the map and the relocaliser never change; frames are tracked against each other, so
+/// that what several views say about where the camera may be adds up (PoseCandidates): a place that one view leaves in doubt is found once
+/// something distinctive comes into view, and one that only looks alike is not believed. When lost, the last known pose is a
 /// candidate, too: a camera that was covered for a moment is found again even without a relocaliser.
 ///
 /// Copies are independent but for the relocaliser, which is the caller's.
@@ -116,13 +120,17 @@ class FusionPipeline : public Persistent {
     TrackingQuality tracked = TrackingQuality::kFailed;
     SE3 tracked_world_from_camera;
     RelocalisationOutcome outcome = RelocalisationOutcome::kNotAsked;
-    RefinedPose found;  ///< if the outcome is a pose
+    RefinedPose found;         ///< if the outcome is a pose
+    bool is_new_view = false;  ///< the map explains the frame from another place than that of the last that it explained
   };
 
   void start(const Frame& frame, FusionFrameResult& result);
   void follow(const Frame& frame, bool usable, bool may_track, FusionFrameResult& result);
   void track(const Frame& frame, Sighting& sighting, FusionFrameResult& result);
   void relocalise(const Frame& frame, Sighting& sighting, FusionFrameResult& result);
+  std::vector<PoseEstimate> propose(const Frame& frame, bool is_lost, FusionFrameResult& result);
+  void carry_candidates();
+  const RefinedPose* choose(Span<const RefinedPose> refined, bool is_lost);
   void fuse(const Frame& frame, FusionFrameResult& result);
   void train(const Frame& frame, FusionFrameResult& result);
   void render(const Frame& frame, FusionFrameResult& result);
@@ -136,8 +144,11 @@ class FusionPipeline : public Persistent {
   ViewComparer comparer_;
   PoseRefiner refiner_;
   RecoveryPolicy policy_;
+  PoseCandidates candidates_;
   SurfaceMap rendering_;
-  Array<SE3> guess_;  // of the pose to be tracked
+  SurfaceMap lost_surface_;          // of the last frame, while lost
+  Array<SE3> guess_;                 // of the pose to be tracked
+  SE3 explained_world_from_camera_;  // of the last view that the map explained
   SE3 world_from_camera_;
   bool started_ = false;
   bool loss_forced_ = false;

@@ -73,6 +73,10 @@ class IcpTracker {
   /// Whether any depth of the frame is in range; waits for the device. Without any, alignment is of no use. @pre set_frame() was called.
   bool sees_depth();
 
+  /// The frame itself as a rendering, in its own camera's frame: what the next frame is tracked against where there is no map.
+  /// @param surface  Output; its memory is reused. @pre set_frame() was called; `surface` lives in the context's memory.
+  void make_surface(SurfaceMap& surface) const;
+
   /// Aligns the frame with a rendering, starting from a guess of its pose.
   /// @return The best pose found; measures.well_posed is false where the data did not determine one.
   /// @pre set_frame() was called; `model` lives in the context's memory and is not empty.

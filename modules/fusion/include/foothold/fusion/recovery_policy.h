@@ -41,9 +41,13 @@ struct RecoveryDecision {
 struct RecoverySettings {
   /// Good frames in a row after a recovery before the map may change again.
   int settle_frames = 10;
-  /// The same after a single poor frame.
+  /// Views from new places, all good, that a recovery must be confirmed by before the map may change: what looks alike from one place
+  /// hardly does from three.
+  int confirming_views = 2;
+  /// The same number of frames after a single poor frame.
   int settle_frames_after_poor = 3;
-  /// Frames in a row that may be tracked poorly before the camera counts as lost.
+  /// Frames in a row that may be tracked poorly before the camera counts as lost; of a recovered pose that is not confirmed yet, a fifth of
+  /// them.
   int max_poor_frames = 30;
   /// While settling, the relocaliser is asked for a second opinion every so many frames; 0 for never.
   int confirm_interval = 3;
@@ -51,6 +55,8 @@ struct RecoverySettings {
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&RecoverySettings::settle_frames, "settle_frames", "Good frames after a recovery before the map may change (R).", Range{0, 1000});
+    v(&RecoverySettings::confirming_views, "confirming_views",
+      "Good views from new places after a recovery before the map may change (T: replay_sequence, rooms).", Range{0, 1000});
     v(&RecoverySettings::settle_frames_after_poor, "settle_frames_after_poor",
       "Good frames after a poor one before the map may change (T: replay_sequence, kitchen).", Range{0, 1000});
     v(&RecoverySettings::max_poor_frames, "max_poor_frames",
@@ -62,7 +68,7 @@ struct RecoverySettings {
 };
 
 /// The policy: good frames are fused and learnt from, poor ones neither; a failed one is relocalised at once; after a recovery nothing is
-/// fused until tracking has settled, during which the relocaliser may object.
+/// fused until tracking has settled and views from new places have confirmed the pose, during which the relocaliser may object.
 ///
 /// | state    | tracked | relocaliser        | then     | pose         | fuse, train |
 /// |----------|---------|--------------------|----------|--------------|-------------|
@@ -81,12 +87,16 @@ class RecoveryPolicy {
   explicit RecoveryPolicy(const RecoverySettings& settings = {}) : settings_(settings) { settings.validate(); }
 
   RecoveryState state() const { return state_; }
+  /// Whether the pose is a recovered one that too few views have confirmed yet.
+  bool is_unconfirmed() const { return state_ == RecoveryState::kSettling && views_left_ > 0; }
   /// Whether there is a pose to track from. When not, report the frame as kFailed.
   bool should_track() const { return state_ != RecoveryState::kLost; }
   /// Whether the relocaliser should be asked about this frame, given how tracking went.
   bool should_relocalise(TrackingQuality tracked) const;
-  /// Takes what is known of a frame and decides. @pre The relocaliser was asked if should_relocalise() said so.
-  RecoveryDecision update(TrackingQuality tracked, RelocalisationOutcome outcome);
+  /// Takes what is known of a frame and decides.
+  /// @param is_new_view  Whether the frame confirms a recovered pose: the map explains it, and it was taken from a new place.
+  /// @pre The relocaliser was asked if should_relocalise() said so.
+  RecoveryDecision update(TrackingQuality tracked, RelocalisationOutcome outcome, bool is_new_view = true);
   /// Back to the start: tracking.
   void reset();
 
@@ -97,6 +107,7 @@ class RecoveryPolicy {
   RecoveryState state_ = RecoveryState::kTracking;
   int settle_length_ = 0;     // good frames in a row that settling takes
   int good_frames_left_ = 0;  // while settling
+  int views_left_ = 0;        // likewise, views that confirm
   int num_settling_ = 0;      // frames since settling began
   int num_poor_ = 0;          // in a row
 };

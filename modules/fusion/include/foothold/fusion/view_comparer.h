@@ -14,17 +14,21 @@ namespace foothold {
 
 /// How a frame compares with a rendering of the map. Fractions are of the compared pixels with depth.
 struct ViewAgreement {
-  int num_valid = 0;        ///< compared pixels with depth
-  float overlap = 0.0F;     ///< part of them that fall on rendered surface
-  float agreement = 0.0F;   ///< part of the overlap whose depths agree
-  float in_front = 0.0F;    ///< part of the overlap where the frame sees something in the map's free space
-  float behind = 0.0F;      ///< part of the overlap where the frame looks through the map's surface
-  float difference = 0.0F;  ///< mean over the overlap of the depth difference, in tolerances, each at most 3
+  int num_valid = 0;            ///< compared pixels with depth
+  float overlap = 0.0F;         ///< part of them that fall on rendered surface
+  float agreement = 0.0F;       ///< part of the overlap whose depths agree
+  float in_front = 0.0F;        ///< part of the overlap where the frame sees something in the map's free space
+  float behind = 0.0F;          ///< part of the overlap where the frame looks through the map's surface
+  float solid_in_front = 0.0F;  ///< part of the overlap far in front, as is its neighbourhood: a thing, neither an edge nor noise
+  float solid_behind = 0.0F;    ///< the same of what is behind
+  float difference = 0.0F;      ///< mean over the overlap of the depth difference, in tolerances, each at most 3
   /// Normalised cross-correlation of grey values over the agreeing pixels, in [-1, 1]; 0 without texture or colour.
   float colour_correlation = 0.0F;
   /// The same of what is left of the grey values after each of 8 x 8 compared pixels lost its mean: the pattern on surfaces, which tells
   /// equal furniture apart, without the surfaces' own shades and the light.
   float texture_correlation = 0.0F;
+  /// Part of the tiles with a pattern, in the frame or in the map, whose patterns differ (correlate at less than 0.4); 0 without any.
+  float unlike_texture = 0.0F;
 };
 
 /// Compares frames with renderings, at every fourth pixel in both directions.

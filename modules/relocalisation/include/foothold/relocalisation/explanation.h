@@ -38,9 +38,16 @@ struct ExplainedPixel {
   std::size_t num_modes = 0;
 };
 
+/// Something that the confidence in the best candidate was made from.
+struct ExplainedEvidence {
+  const char* name;
+  float value;
+};
+
 /// Everything there was to choose from.
 struct Explanation {
   std::vector<ExplainedCandidate> candidates;  ///< best first, as ForestRelocaliser::relocalise() returns them
+  std::vector<ExplainedEvidence> evidence;     ///< of the best, before other places were compared with its own; none if not aligned
   std::vector<ExplainedPixel> pixels;          ///< those with modes; any prefix covers the image evenly
   std::vector<ExplainedMode> modes;
 };

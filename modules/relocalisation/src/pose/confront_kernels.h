@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+/// Confronting the best pose with all points that were drawn of the scene, tile by tile: an object that is missing contradicts a pose in
+/// one place, noise all over. Not in the paper.
+#pragma once
+
+#include <cmath>
+
+#include "foothold/base/exec/atomics.h"
+#include "pose/rank_kernels.h"
+
+namespace foothold {
+
+/// Grey value of a colour, in [0, 255].
+template <class Colour>
+FOOTHOLD_HD inline float grey_level(const Colour& r, const Colour& g, const Colour& b) {
+  return 0.299F * static_cast<float>(r) + 0.587F * static_cast<float>(g) + 0.114F * static_cast<float>(b);
+}
+
+/// Projects the points into the frame from the best pose, and counts, as a whole and by tile. One team.
+template <class Executor>
+struct ConfrontPoints {
+  FeatureImageView image;
+  Intrinsics intrinsics;  ///< of the averaged image
+  const RememberedPoint* points;
+  int num_points;
+  HypothesesView hypotheses;
+  TileCounts* tiles;
+  SceneAgreement* agreement;
+
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
+    const SE3& pose = hypotheses.pose_at(0);
+    const Eigen::Matrix3f camera_from_scene = pose.rotation.transpose();
+    float sums[kNumSums] = {};
+    for (int i = team.lane(); i < num_points; i += team.size()) {
+      const RememberedPoint& point = points[i];
+      if (point.valid == 0) continue;
+      const Eigen::Vector3f point_scene(point.point_scene[0], point.point_scene[1], point.point_scene[2]);
+      add_point(camera_from_scene * (point_scene - pose.translation), point, sums);
+    }
+    team.sum_all(sums);
+    if (team.lane() != 0) return;
+    const float scale = 1.0F / (sums[kInView] + kPrior);
+    agreement->agreeing_fraction = sums[kAgreeing] * scale;
+    agreement->contradicted_fraction = sums[kContradicted] * scale;
+    agreement->alike_fraction = sums[kAlike] * scale;
+    agreement->colour_correlation = correlation(sums);
+    agreement->valid = 1;
+  }
+
+ private:
+  enum Sum { kInView, kContradicted, kAgreeing, kAlike, kLive, kScene, kLive2, kScene2, kLiveScene, kNumSums };
+  static constexpr float kPrior = 20.0F;  ///< (T) a few points prove nothing
+
+  FOOTHOLD_HD FOOTHOLD_INLINE void add_point(const Eigen::Vector3f& point_camera, const RememberedPoint& point,
+                                             float (&sums)[kNumSums]) const {
+    const PointSighting sighting = sight(image, intrinsics, point_camera);
+    if (sighting.state == PointState::kOutOfView) return;
+    sums[kInView] += 1.0F;
+    TileCounts& tile = tiles[tile_of(sighting.pixel)];
+    if (sighting.state == PointState::kContradicted) {
+      sums[kContradicted] += 1.0F;
+      atomic_add(&tile.num_contradicted, 1U);
+    }
+    if (sighting.state != PointState::kAgrees) return;
+    atomic_add(&tile.num_agreeing, 1U);
+    const FeaturePixel& pixel = image.pixels[sighting.pixel];
+    // About the middle of their range, which keeps the sums' digits.
+    const float live = grey_level(pixel.r(), pixel.g(), pixel.b()) * (1.0F / 128.0F) - 1.0F;
+    const float scene = grey_level(point.rgb[0], point.rgb[1], point.rgb[2]) * (1.0F / 128.0F) - 1.0F;
+    sums[kAgreeing] += 1.0F;
+    sums[kAlike] += is_alike(pixel, point) ? 1.0F : 0.0F;
+    sums[kLive] += live;
+    sums[kScene] += scene;
+    sums[kLive2] += live * live;
+    sums[kScene2] += scene * scene;
+    sums[kLiveScene] += live * scene;
+  }
+
+  FOOTHOLD_HD int tile_of(int pixel) const {
+    return pixel / image.width * kTileRows / image.height * kTileColumns + pixel % image.width * kTileColumns / image.width;
+  }
+
+  /// Shrunk towards 0 where there are few points.
+  FOOTHOLD_HD static float correlation(const float (&sums)[kNumSums]) {
+    const float n = sums[kAgreeing];
+    if (n < 2.0F) return 0.0F;
+    const float live_variance = sums[kLive2] - sums[kLive] * sums[kLive] / n;
+    const float scene_variance = sums[kScene2] - sums[kScene] * sums[kScene] / n;
+    const float covariance = sums[kLiveScene] - sums[kLive] * sums[kScene] / n;
+    const float product = live_variance * scene_variance;
+    return product > 0.0F ? covariance / std::sqrt(product) * (n / (n + kPrior)) : 0.0F;
+  }
+};
+
+/// Sums up the tiles, and empties them for the next frame. One team.
+template <class Executor>
+struct SumTiles {
+  FeatureImageView image;
+  TileCounts* tiles;
+  SceneAgreement* agreement;
+
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
+    float sums[kNumSums] = {};
+    for (int tile = team.lane(); tile < kNumTiles; tile += team.size()) {
+      const TileCounts counts = tiles[tile];
+      tiles[tile] = {};
+      const std::uint32_t num_judged = counts.num_agreeing + counts.num_contradicted;
+      sums[kExplained] += counts.num_agreeing > 0 ? 1.0F : 0.0F;
+      sums[kWithDepth] += counts.num_agreeing > 0 || has_depth(tile) ? 1.0F : 0.0F;
+      if (num_judged < kFewestPoints) continue;
+      sums[kJudged] += 1.0F;
+      sums[kContradicted] += counts.num_contradicted > 2 * counts.num_agreeing ? 1.0F : 0.0F;
+    }
+    team.sum_all(sums);
+    if (team.lane() != 0) return;
+    agreement->contradicted_tiles = sums[kContradicted] / (sums[kJudged] > 0.0F ? sums[kJudged] : 1.0F);
+    agreement->explained_tiles = sums[kExplained] / (sums[kWithDepth] > 0.0F ? sums[kWithDepth] : 1.0F);
+  }
+
+ private:
+  enum Sum { kExplained, kWithDepth, kJudged, kContradicted, kNumSums };
+  static constexpr std::uint32_t kFewestPoints = 3;  ///< (T) of a tile that says anything
+
+  /// Whether the pixel in a tile's middle has depth.
+  FOOTHOLD_HD bool has_depth(int tile) const {
+    const int u = (2 * (tile % kTileColumns) + 1) * image.width / (2 * kTileColumns);
+    const int v = (2 * (tile / kTileColumns) + 1) * image.height / (2 * kTileRows);
+    return image.pixels[v * image.width + u].depth_mm() > 0;
+  }
+};
+
+/// Leaves what the scene says about the hypothesis in the first slot. @pre The points were drawn.
+template <class Executor>
+void confront(const Executor& executor, const PoseQuery& query, Hypotheses& hypotheses, Ranking& ranking) {
+  const FeatureImageView image = query.image.view();
+  executor.for_each_team(1, ConfrontPoints<Executor>{image, query.averaged_intrinsics(), ranking.points.data(), kRememberedPoints,
+                                                     hypotheses.view(), ranking.tiles.data(), ranking.agreement.data()});
+  executor.for_each_team(1, SumTiles<Executor>{image, ranking.tiles.data(), ranking.agreement.data()});
+}
+
+}  // namespace foothold
