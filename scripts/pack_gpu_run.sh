@@ -76,10 +76,12 @@ if readelf -d "$run"/bin/* | grep -E 'R(UN)?PATH' | grep -v -F "[\$ORIGIN/../lib
 fi
 
 if [[ ${#recordings[@]} -gt 0 ]]; then
-  scripts/build.sh release render_sequence
+  scripts/install_packages.sh  # OpenCV
+  cmake -S . -B build/gpu-run-recordings -G Ninja -DCMAKE_BUILD_TYPE=Release -DFOOTHOLD_CUDA=OFF >/dev/null
+  cmake --build build/gpu-run-recordings --target render_sequence
   for recording in "${recordings[@]}"; do
     raw=$staging/raw
-    build/release/bin/render_sequence --sequence "${recording#*=}@0:$frames" --raw --out "$raw"
+    build/gpu-run-recordings/bin/render_sequence --sequence "${recording#*=}@0:$frames" --raw --out "$raw"
     "$run/bin/device_benchmark" pack --sequence "$raw" --frames "$frames" --out "$run/recordings/${recording%%=*}"
     rm "$raw"
   done

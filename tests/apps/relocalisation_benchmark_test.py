@@ -127,6 +127,7 @@ class BadInputTest(app_support.AppTest):
         self.check_refused(*loss, "--method", "ferns,ferns", says="twice")
         self.check_refused(*loss, "--preset", "fast", says=["fast", "tuned", "paper"])
         self.check_refused(*loss, "--device", "tpu", says=["tpu", "cuda"])
+        self.check_refused(*loss, "--device", "cuda:x", says=["cuda:x", "cuda:N"])
         with unittest.mock.patch.dict(os.environ, {"CUDA_VISIBLE_DEVICES": ""}):  # hides GPUs where there are any
             self.check_refused(*loss, "--device", "cuda", says="CUDA")
         self.check_refused(*loss, "--threads", -1, says="-1")

@@ -3,10 +3,13 @@
 # Copyright (c) 2026 The Foothold authors
 """Runs scripts/gpu_visit.sh with programs that only pretend: its order, limits and logs, and what it makes of ncu's table.
 
-    gpu_visit_test.py REPOSITORY
+    gpu_visit_test.py REPOSITORY TEST_PROGRAM
+
+TEST_PROGRAM has the tests of foothold_gpu_tests; the script must name tests that there are.
 """
 
 import os
+import re
 import shutil
 import stat
 import subprocess
@@ -70,6 +73,7 @@ class Visit:
 
 class GpuVisitTest(unittest.TestCase):
     repository = None
+    test_program = None
 
     def setUp(self):
         self.visit = Visit(self.repository)
@@ -91,6 +95,14 @@ class GpuVisitTest(unittest.TestCase):
             steps = next(line for line in file if line.startswith("steps=("))
         limits = [int(entry.split(":")[1]) for entry in steps.strip()[len("steps=(") : -1].split()]
         self.assertLess(sum(limits), 480)
+
+    def test_the_tests_that_are_looked_at_closely_exist(self):
+        with open(f"{self.repository}/scripts/gpu_visit.sh", encoding="utf-8") as file:
+            chosen = re.findall(r'/foothold_gpu_tests" "([^"]+)"', file.read())
+        self.assertGreater(len(chosen), 5)
+        for pattern in ",".join(chosen).split(","):
+            listed = subprocess.run([self.test_program, "--list-test-names-only", pattern], capture_output=True, text=True, timeout=60, check=False)
+            self.assertNotEqual(listed.stdout.strip(), "", f"no test is called {pattern}")
 
     def test_without_a_gpu_the_visit_ends_and_says_so(self):
         self.visit.program("bin/device_benchmark", "echo 'error: no usable CUDA device' >&2; exit 2")
@@ -117,6 +129,7 @@ class GpuVisitTest(unittest.TestCase):
         self.assertIn("4000 2 void foothold::detail::for_each_team_kernel<foothold::Draw<", log)
         self.assertIn("2048 1 void foothold::detail::for_each_kernel<foothold::Average>", log)
         self.assertLess(log.index("4000 2 "), log.index("2048 1 "))
+        self.assertIn("--launch-skip 2 --launch-count 1", log)  # it was launched twice in the frames that were counted
         self.assertIn("regex:^void foothold::detail::for_each_team_kernel.foothold::Draw.foothold::CudaExecutor...T1.$", log)
 
     def test_a_rehearsal_needs_no_gpu(self):
@@ -137,5 +150,6 @@ class GpuVisitTest(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    GpuVisitTest.test_program = sys.argv.pop(2)
     GpuVisitTest.repository = sys.argv.pop(1)
     unittest.main()

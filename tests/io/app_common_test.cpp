@@ -102,6 +102,16 @@ TEST_CASE("run_app: a hang-up that is ignored, as under nohup, stays so") {
   CHECK(outcome.exit_code == kSuccess);
 }
 
+TEST_CASE("make_context: a device is cpu, cuda or cuda:N, and any other text is refused") {
+  CHECK(make_context({"cpu", 1}).device() == Device::kCpu);
+  for (const char* text : {"", "gpu", "CUDA", "cpu:0", "cuda:", "cuda:x", "cuda:1x", "cuda:-1", "cuda: 1", "cuda:1000", "cuda0"}) {
+    INFO(text);
+    CHECK_THROWS_WITH(make_context({text, 1}), Contains("--device: got '" + std::string(text) + "', expected cpu, cuda or cuda:N"));
+  }
+  // No machine has so many, but it is a device.
+  CHECK_THROWS_WITH(make_context({"cuda:999", 1}), !Contains("--device"));
+}
+
 TEST_CASE("ProgressBar: elsewhere than on a terminal, a line every tenth of the way") {
   const std::string output = stderr_of([] {
     ProgressBar bar("working", 1000);

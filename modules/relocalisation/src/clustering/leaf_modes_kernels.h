@@ -41,7 +41,7 @@ struct ChooseLeaf {
     std::uint32_t leaf = num_leaves;
     if (slot < num_leaves) {
       if (keys == nullptr) {
-        leaf = static_cast<std::uint32_t>((cursor + slot) % num_leaves);
+        leaf = (cursor + static_cast<std::uint32_t>(slot)) % num_leaves;
       } else if ((keys[slot] >> kLeafShift) < kMaxPriority) {
         leaf = static_cast<std::uint32_t>(keys[slot] & 0xffffffffU);
       }

@@ -275,9 +275,10 @@ struct QuickShift {
     mode.precision[3] = static_cast<float>(scale * (xx * zz - xz * xz));
     mode.precision[4] = static_cast<float>(scale * (xy * xz - xx * yz));
     mode.precision[5] = static_cast<float>(scale * (xx * yy - xy * xy));
-    mode.rgb[0] = static_cast<std::uint8_t>(sums[kRed] / sums[kCount]);
-    mode.rgb[1] = static_cast<std::uint8_t>(sums[kGreen] / sums[kCount]);
-    mode.rgb[2] = static_cast<std::uint8_t>(sums[kBlue] / sums[kCount]);
+    const auto count = static_cast<std::int32_t>(sums[kCount]);
+    mode.rgb[0] = static_cast<std::uint8_t>(static_cast<std::int32_t>(sums[kRed]) / count);
+    mode.rgb[1] = static_cast<std::uint8_t>(static_cast<std::int32_t>(sums[kGreen]) / count);
+    mode.rgb[2] = static_cast<std::uint8_t>(static_cast<std::int32_t>(sums[kBlue]) / count);
     mode.reserved = 0;
     mode.num_points = static_cast<std::uint32_t>(sums[kCount]);
     return mode;

@@ -16,8 +16,8 @@ struct PackFeaturePixel {
   FeaturePixel* pixels;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
-    const int u0 = static_cast<int>(i % static_cast<std::size_t>(width)) * downscale;
-    const int v0 = static_cast<int>(i / static_cast<std::size_t>(width)) * downscale;
+    const int u0 = static_cast<int>(i) % width * downscale;
+    const int v0 = static_cast<int>(i) / width * downscale;
     int depth_sum_mm = 0;
     int num_depths = 0;
     int r = 0;

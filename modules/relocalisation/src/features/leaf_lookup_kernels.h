@@ -15,11 +15,12 @@ struct FindLeaves {
   ForestView forest;
   Span<const SampledPixel> pixels;
   std::uint32_t* leaves;
-  std::size_t groups_per_tree;
+  std::uint32_t groups_per_tree;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
-    const std::size_t tree = i / groups_per_tree;
-    const std::size_t first = i % groups_per_tree * static_cast<std::size_t>(kWidth);
+    const auto item = static_cast<std::uint32_t>(i);
+    const std::size_t tree = item / groups_per_tree;
+    const std::size_t first = std::size_t{item % groups_per_tree} * static_cast<std::size_t>(kWidth);
     const int num = static_cast<int>(pixels.size() - first < static_cast<std::size_t>(kWidth) ? pixels.size() - first
                                                                                               : static_cast<std::size_t>(kWidth));
     int u[kWidth] = {};
@@ -66,9 +67,9 @@ void LeafLookupAlgorithms<Executor>::find_leaves(const Context& context, const F
                                                  Span<const SampledPixel> pixels, Span<std::uint32_t> leaves) {
   constexpr std::size_t kWidth = Executor::kVectorWidth;
   const std::size_t groups_per_tree = (pixels.size() + kWidth - 1) / kWidth;
-  Executor(context).for_each(
-      groups_per_tree * static_cast<std::size_t>(forest.num_trees),
-      FindLeaves<Executor::kVectorWidth>{image.view(), image.downscale(), forest, pixels, leaves.data(), groups_per_tree});
+  Executor(context).for_each(groups_per_tree * static_cast<std::size_t>(forest.num_trees),
+                             FindLeaves<Executor::kVectorWidth>{image.view(), image.downscale(), forest, pixels, leaves.data(),
+                                                                static_cast<std::uint32_t>(groups_per_tree)});
 }
 
 }  // namespace foothold

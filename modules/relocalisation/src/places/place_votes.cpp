@@ -32,7 +32,8 @@ std::vector<PlaceVote> PlaceVotes::count(const Context& context, const PoseQuery
   const ScopedStage stage(context, "relocalise/vote");
   if (forests.empty() || places.empty()) return {};
   const int num_trees = forests.front().num_trees;
-  const std::size_t num_voters = std::clamp<std::size_t>(kMostVotes / (places.size() * forests.size()), kFewestVoters, kMostVoters);
+  const auto num_voters =
+      static_cast<std::uint32_t>(std::clamp<std::size_t>(kMostVotes / (places.size() * forests.size()), kFewestVoters, kMostVoters));
   const std::size_t num_pairs = num_voters * static_cast<std::size_t>(num_trees);
   leaves_.resize(num_pairs * forests.size());
   for (std::size_t i = 0; i < forests.size(); ++i) {
@@ -42,7 +43,7 @@ std::vector<PlaceVote> PlaceVotes::count(const Context& context, const PoseQuery
   places_.assign(context, Span<const LeafModesView>(places));
   shares_.resize(forests.size() * places.size());
   const CountVotes body{query.image.view(), query.image.downscale(), num_trees,      static_cast<std::uint32_t>(forests.front().num_leaves),
-                        num_voters,         voters_.data(),          leaves_.data(), places.size(),
+                        num_voters,         voters_.data(),          leaves_.data(), static_cast<std::uint32_t>(places.size()),
                         places_.data(),     shares_.data()};
   dispatch(context, [&](auto on) { VotingAlgorithms<typename decltype(on)::Executor>::count(context, body, shares_.size()); });
   const std::vector<float> shares = shares_.to_host(context);

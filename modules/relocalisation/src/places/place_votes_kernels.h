@@ -19,20 +19,21 @@ struct CountVotes {
   int downscale;
   int num_trees;
   std::uint32_t num_leaves;
-  std::size_t num_voters;
+  std::uint32_t num_voters;
   const SampledPixel* voters;
   const std::uint32_t* leaves;
-  std::size_t num_places;
+  std::uint32_t num_places;
   const LeafModesView* places;
   float* shares;
 
   template <class Team>
-  FOOTHOLD_HD void operator()(const Team& team, std::size_t item) const {
+  FOOTHOLD_HD void operator()(const Team& team, std::size_t index) const {
+    const auto item = static_cast<std::uint32_t>(index);
     const LeafModesView& modes = places[item % num_places];
-    const std::size_t num_pairs = num_voters * static_cast<std::size_t>(num_trees);
-    const std::uint32_t* const reached = leaves + item / num_places * num_pairs;
+    const std::uint32_t num_pairs = num_voters * static_cast<std::uint32_t>(num_trees);
+    const std::uint32_t* const reached = leaves + std::size_t{item / num_places} * num_pairs;
     float counts[2] = {};
-    for (auto i = static_cast<std::size_t>(team.lane()); i < num_pairs; i += static_cast<std::size_t>(team.size())) {
+    for (auto i = static_cast<std::uint32_t>(team.lane()); i < num_pairs; i += static_cast<std::uint32_t>(team.size())) {
       if (reached[i] >= num_leaves) continue;
       counts[0] += 1.0F;
       if (modes.num_modes[reached[i]] > 0 && has_mode_of_colour(modes, reached[i], voters[i % num_voters])) counts[1] += 1.0F;

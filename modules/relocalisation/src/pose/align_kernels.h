@@ -43,8 +43,9 @@ struct MeasureOffset {
   SurfaceOffset* offsets;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
-    const std::size_t sample = i / static_cast<std::size_t>(num_trees);
-    const std::size_t tree = i % static_cast<std::size_t>(num_trees);
+    const auto item = static_cast<std::uint32_t>(i);
+    const std::size_t sample = item / static_cast<std::uint32_t>(num_trees);
+    const std::size_t tree = item % static_cast<std::uint32_t>(num_trees);
     SurfaceOffset sum{0.0F, 0.0F};
     const SurfaceSample& surface = surfaces[sample];
     const std::uint32_t leaf = leaves[tree * pool_size + sample];

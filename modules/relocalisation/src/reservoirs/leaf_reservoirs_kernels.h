@@ -56,7 +56,7 @@ struct InsertRun {
   LeafReservoirsView reservoirs;
   Span<const std::uint64_t> keys;
   const ReservoirPoint* points;
-  std::size_t num_examples;
+  std::uint32_t num_examples;
   const std::uint32_t* first_new_block;
   const std::uint32_t* num_used_blocks;
 
@@ -77,7 +77,7 @@ struct InsertRun {
         reservoirs.blocks.own(leaf, owned++, next_block++);
         reservoirs.block_of(leaf, position) = {};  // so that saved scenes hold nothing of what the memory held before
       }
-      reservoirs.set_point(leaf, position, points[(keys[k] & 0xffffffffU) % num_examples]);
+      reservoirs.set_point(leaf, position, points[static_cast<std::uint32_t>(keys[k]) % num_examples]);
       ++written;
     }
     reservoirs.num_seen[leaf] = seen;
@@ -118,8 +118,8 @@ void ReservoirAlgorithms<Executor>::insert(const Context& context, const LeafRes
   const Span<const std::uint64_t> keys(buffers.keys);
   executor.for_each(num_keys, CountNewBlocks{reservoirs, keys, buffers.new_blocks.data()});
   executor.exclusive_scan(Span<const std::uint32_t>(buffers.new_blocks), Span<std::uint32_t>(buffers.first_new_block));
-  executor.for_each(num_keys, InsertRun{reservoirs, keys, examples.points.data(), examples.points.size(), buffers.first_new_block.data(),
-                                        num_used_blocks});
+  executor.for_each(num_keys, InsertRun{reservoirs, keys, examples.points.data(), static_cast<std::uint32_t>(examples.points.size()),
+                                        buffers.first_new_block.data(), num_used_blocks});
   executor.for_each(1, AddTotal{buffers.first_new_block.data() + num_keys, num_used_blocks});
 }
 
