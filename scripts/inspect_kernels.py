@@ -26,7 +26,7 @@ import sys
 
 BUILD = "build/kernels"
 # Few threads solve 6x6 systems or invert covariances, whose condition needs it.
-MAY_USE_DOUBLE = {"AlignByProjection", "AlignWithPoints", "BeginIcp", "ClusterLeaf", "EndIcp", "RefineHypothesis", "SolveStep", "SumChunk<1>", "TotalTiles"}
+MAY_USE_DOUBLE = {"AlignByProjection", "AlignWithPoints", "ClusterLeaf", "EndIcp", "RefineHypothesis", "SolveStep", "TotalTiles"}
 # Once for each leaf, of a product that does not fit 32 bits.
 MAY_DIVIDE_LONG = {"MakePriorityKey"}
 
