@@ -20,20 +20,20 @@ using test::Scene;
 /// Knows the pose of every frame, shifted a little, as a relocaliser that has seen the scene would.
 class KnowingRelocaliser : public Relocaliser {
  public:
-  explicit KnowingRelocaliser(const SE3& world_from_camera) : proposal_(world_from_camera) {
-    proposal_.translation += Eigen::Vector3f(0.02F, -0.01F, 0.01F);
-  }
+  explicit KnowingRelocaliser(const SE3& world_from_camera) : place(world_from_camera) {}
   void train(const Frame&, const SE3&) override { ++num_trained; }
-  std::vector<PoseEstimate> relocalise(const Frame&) override { return {{proposal_, 0.9F}}; }
+  std::vector<PoseEstimate> relocalise(const Frame&) override {
+    PoseEstimate estimate{place, 0.9F};
+    estimate.world_from_camera.translation += Eigen::Vector3f(0.02F, -0.01F, 0.01F);
+    return {estimate};
+  }
   void update() override {}
   void reset() override {}
   std::size_t state_bytes() const override { return 0; }
   float acceptance_threshold() const override { return 0.5F; }
 
+  SE3 place;
   int num_trained = 0;
-
- private:
-  SE3 proposal_;
 };
 
 FusionSettings coarse_settings() {
@@ -87,7 +87,11 @@ TEST_CASE("FusionPipeline: a loaded reconstruction is lost, and goes on once the
   REQUIRE(result.world_from_camera.has_value());
   constexpr float kVoxel_m = 0.02F;
   CHECK(translation_distance_m(*result.world_from_camera, place) < kVoxel_m);
-  for (int i = 0; i < 30 && result.state != RecoveryState::kTracking; ++i) result = loaded.process(frame.view());
+  for (int i = 1; i < 40 && result.state != RecoveryState::kTracking; ++i) {  // the camera moves on, which confirms the pose
+    const SE3 next = test::pose_on_arc(0.1F + 0.015F * static_cast<float>(i));
+    relocaliser.place = next;
+    result = loaded.process(test::render(Scene{}, next).view());
+  }
   CHECK(result.state == RecoveryState::kTracking);
   CHECK(relocaliser.num_trained > 0);
 }

@@ -29,7 +29,7 @@ RecoveryDecision RecoveryPolicy::settle(int num_frames, PoseSource pose) {
   state_ = RecoveryState::kSettling;
   settle_length_ = num_frames;
   good_frames_left_ = num_frames;
-  if (pose == PoseSource::kRelocaliser) views_left_ = settings_.confirming_views;
+  if (pose == PoseSource::kRelocaliser) views_left_ = kConfirmingViews;
   num_settling_ = 0;
   return {state_, pose, false, false};
 }

@@ -38,13 +38,14 @@ struct RecoveryDecision {
 };
 
 /// How long a pose must be good or poor before the state changes.
+/// Views from new places, all good, that a recovery must be confirmed by before the map may change: what looks alike from one place hardly
+/// does from three (T: replay_sequence, office).
+inline constexpr int kConfirmingViews = 2;
+
 struct RecoverySettings {
   /// Good frames in a row after a recovery before the map may change again.
   int settle_frames = 10;
-  /// Views from new places, all good, that a recovery must be confirmed by before the map may change: what looks alike from one place
-  /// hardly does from three.
-  int confirming_views = 2;
-  /// The same number of frames after a single poor frame.
+  /// The same after a single poor frame.
   int settle_frames_after_poor = 3;
   /// Frames in a row that may be tracked poorly before the camera counts as lost; of a recovered pose that is not confirmed yet, a fifth of
   /// them.
@@ -55,8 +56,6 @@ struct RecoverySettings {
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&RecoverySettings::settle_frames, "settle_frames", "Good frames after a recovery before the map may change (R).", Range{0, 1000});
-    v(&RecoverySettings::confirming_views, "confirming_views",
-      "Good views from new places after a recovery before the map may change (T: replay_sequence, rooms).", Range{0, 1000});
     v(&RecoverySettings::settle_frames_after_poor, "settle_frames_after_poor",
       "Good frames after a poor one before the map may change (T: replay_sequence, kitchen).", Range{0, 1000});
     v(&RecoverySettings::max_poor_frames, "max_poor_frames",
