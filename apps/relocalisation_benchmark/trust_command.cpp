@@ -207,11 +207,13 @@ struct TypedAmounts {
   int num_own = -1;
   int num_strangers = -1;
   int num_spoilt = -1;
+  int first_room = -1;
 };
 
 /// The full or quick amounts, but for those typed.
 TrustAmounts amounts_of(const TypedAmounts& typed, bool quick) {
   TrustAmounts amounts = quick ? quick_amounts() : TrustAmounts{};
+  amounts.first_room = typed.first_room;
   const std::pair<int, int*> numbers[] = {{typed.num_rooms, &amounts.num_rooms},
                                           {typed.num_frames, &amounts.views.num_training},
                                           {typed.num_own, &amounts.num_own},
@@ -257,7 +259,7 @@ Command add_trust_command(apps::CommandLine& app) {
       .type_name("FILE.csv");
   command
       .add_option(
-          "--first-room", options->amounts.first_room,
+          "--first-room", typed->first_room,
           "Learn rooms training-N, N + 1, ... alone; from 100 on they are for tests, and come behind the named rooms if this is not given")
       .range(0, 100000);
   add_forest_option(command, options->scenes.common);

@@ -22,7 +22,7 @@ constexpr int kKernelsOfTraining = 37;
 constexpr int kOthersOfTraining = 19;
 constexpr int kKernelsOfUpdate = 13;
 constexpr int kOthersOfUpdate = 7;            // one of them asks whether any leaf had changed
-constexpr int kKernelsOfRelocalisation = 72;  // upright; 3 of them count the votes for places
+constexpr int kKernelsOfRelocalisation = 73;  // upright; 3 of them count the votes for places
 constexpr int kOthersOfRelocalisation = 13;
 constexpr int kOthersOfRolledVotes = 2;  // beside a kernel for each roll but the upright one, and one for all
 

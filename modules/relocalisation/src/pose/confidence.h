@@ -18,15 +18,17 @@ struct ConfidenceFeature {
   const char* name;
   float weight;
 };
-inline constexpr std::array<ConfidenceFeature, kNumConfidenceFeatures> kConfidenceFeatures{{{"log_inliers", 0.0F},
-                                                                                            {"log_fine_inliers", 3.0F},
-                                                                                            {"surface_fit", 0.0F},
-                                                                                            {"agreeing", 0.0F},
-                                                                                            {"contradicted", -19.4F},
-                                                                                            {"colour_correlation", 2.4F},
-                                                                                            {"contradicted_tiles", 0.0F},
-                                                                                            {"explained_tiles", 0.0F}}};
-inline constexpr float kConfidenceIntercept = 13.2F;
+/// (T) Fitted by scripts/fit_confidence.py to rendered rooms alone, training-20 to training-29 (data/forest_confidence.csv):
+/// docs/experiments/trust.md.
+inline constexpr std::array<ConfidenceFeature, kNumConfidenceFeatures> kConfidenceFeatures{{{"log_inliers", 0.801F},
+                                                                                            {"log_fine_inliers", 1.998F},
+                                                                                            {"surface_fit", 3.774F},
+                                                                                            {"agreeing", 2.804F},
+                                                                                            {"contradicted", -11.333F},
+                                                                                            {"colour_correlation", 11.500F},
+                                                                                            {"contradicted_tiles", 2.940F},
+                                                                                            {"explained_tiles", -1.498F}}};
+inline constexpr float kConfidenceIntercept = 0.158F;
 
 inline std::array<float, kNumConfidenceFeatures> confidence_features(const PoseCandidate& candidate) {
   const SceneAgreement& scene = candidate.agreement;
@@ -40,7 +42,7 @@ inline std::array<float, kNumConfidenceFeatures> confidence_features(const PoseC
           scene.explained_tiles};
 }
 
-/// The probability that a candidate is within 10 cm and 10 deg of the truth, by logistic regression (T: docs/trust.md).
+/// The probability that a candidate is within 10 cm and 10 deg of the truth, by logistic regression.
 inline float confidence_of(const PoseCandidate& candidate) {
   float log_odds = 0.0F;
   if (candidate.agreement.valid == 0) {  // not aligned: only the modes speak

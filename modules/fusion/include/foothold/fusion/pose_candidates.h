@@ -11,6 +11,7 @@
 
 namespace foothold {
 
+/// How many poses a lost camera carries along, and how long.
 struct PoseCandidatesSettings {
   /// How many poses are carried along.
   int max_candidates = 5;

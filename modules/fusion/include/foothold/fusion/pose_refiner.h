@@ -79,10 +79,11 @@ inline constexpr float kSamePoseDeg = 5.0F;
 /// train_quality_gate; R: 0.1).
 inline constexpr float kMinOverlap = 0.2F;
 
-/// A view from which more than this part of the overlap is seen through in one piece is contradicted. Of right views of two recordings, 94
-/// % have less; of wrong ones of equal desks none (T: replay_sequence, kitchen, teddy and office; docs/experiments/trust.md).
+/// A view from which more than this part of the overlap is seen through in one piece is contradicted. Of right
+/// views of two recordings, 95 % have less; of wrong views of equal desks none has (T: docs/experiments/trust.md).
 inline constexpr float kMostSolidBehind = 0.01F;
 
+/// The number of acceptance_features().
 inline constexpr std::size_t kNumAcceptanceFeatures = 13;
 
 /// What the acceptance classifier looks at: how the frame compares with the rendering, and how alignment went. Of the solid parts, which

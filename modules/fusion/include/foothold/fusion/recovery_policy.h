@@ -37,11 +37,11 @@ struct RecoveryDecision {
   bool train = false;  ///< the relocaliser
 };
 
-/// How long a pose must be good or poor before the state changes.
 /// Views from new places, all good, that a recovery must be confirmed by before the map may change: what looks alike from one place hardly
 /// does from three (T: replay_sequence, office).
 inline constexpr int kConfirmingViews = 2;
 
+/// How long a pose must be good or poor before the state changes.
 struct RecoverySettings {
   /// Good frames in a row after a recovery before the map may change again.
   int settle_frames = 10;
