@@ -78,7 +78,9 @@ class DefectsTest(ReplayTest):
         super().setUp()
         width, height = 160, 120
         app_support.write_seven_scenes(self.folder / "recording", 8, width, height)
-        for index in range(8):  # two boxes before the wall hold the tracker
+        colour = (self.folder / "recording" / "frame-000000.color.png").read_bytes()
+        for index in range(8):  # the camera stands still; two boxes before the wall hold the tracker
+            (self.folder / "recording" / f"frame-{index:06d}.color.png").write_bytes(colour)
             rows = [b"".join(struct.pack(">H", 1500 + 10 * u + 3 * v - 400 * (40 < u < 80 and 30 < v < 70) - 300 * (100 < u < 130 and 60 < v < 100))
                              for u in range(width)) for v in range(height)]
             app_support.write_png(self.folder / "recording" / f"frame-{index:06d}.depth.png", width, height, rows, 16, 1)
