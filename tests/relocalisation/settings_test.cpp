@@ -41,7 +41,7 @@ const Values kTuned = {
     {"pose.num_hypotheses", "512"},
     {"pose.num_candidates", "16"},
     {"pose.as_published", "false"},
-    {"acceptance_threshold", "0.9"},
+    {"acceptance_threshold", "0.75"},
     {"num_rolls", "8"},
     {"sure_confidence", "0.97"},
     {"place_radius_m", "4"},

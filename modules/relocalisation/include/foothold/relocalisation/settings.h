@@ -111,7 +111,7 @@ struct ForestRelocaliserSettings {
   ReservoirSettings reservoirs;
   ClusteringSettings clustering;
   PoseEstimatorSettings pose;
-  float acceptance_threshold = 0.9F;  ///< (T) docs/results.md
+  float acceptance_threshold = 0.75F;  ///< (T) docs/experiments/trust.md
   int num_rolls = 8;                  ///< (P) 1, (T) 8, docs/experiments/rolled-cameras.md
   float sure_confidence = 0.97F;      ///< (T) docs/experiments/rolled-cameras.md
   float place_radius_m = 4.0F;        ///< (P) 16, as good as one place; (T) 4, docs/experiments/places.md
