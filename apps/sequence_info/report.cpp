@@ -33,14 +33,14 @@ std::string camera_text(const Intrinsics& k) {
 double field_of_view_deg(double focal_px, int side_px) { return 2.0 * kDegPerRad * std::atan(0.5 * side_px / focal_px); }
 
 void follow_times(const std::vector<double>& times_s, Course& course) {
-  constexpr double kGap = 3.0;
+  constexpr double kGapInIntervals = 3.0;
   if (times_s.size() < 2) return;
   course.duration_s = times_s.back() - times_s.front();
   std::vector<double> intervals_s;
   for (std::size_t i = 1; i < times_s.size(); ++i) intervals_s.push_back(times_s[i] - times_s[i - 1]);
   course.interval_s = quantile(intervals_s, 0.5);
   for (std::size_t i = 0; i < intervals_s.size(); ++i) {
-    if (intervals_s[i] <= kGap * course.interval_s) continue;
+    if (intervals_s[i] <= kGapInIntervals * course.interval_s) continue;
     ++course.num_gaps;
     if (intervals_s[i] <= course.longest_gap_s) continue;
     course.longest_gap_s = intervals_s[i];

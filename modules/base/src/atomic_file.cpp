@@ -15,11 +15,6 @@
 #include "temporary_file.h"
 
 namespace foothold {
-namespace {
-
-[[noreturn]] void throw_write_error(const std::string& path, int error) {
-  throw FileError(path + ": cannot be written: " + std::strerror(error));
-}
 
 enum class FileKind { kAbsent, kRegular, kDevice };
 
@@ -29,6 +24,12 @@ struct Target {
   FileKind kind = FileKind::kAbsent;
   mode_t permissions = 0;  ///< of a file that is there
 };
+
+namespace {
+
+[[noreturn]] void throw_write_error(const std::string& path, int error) {
+  throw FileError(path + ": cannot be written: " + std::strerror(error));
+}
 
 Target find_target(const std::string& path) {
   struct stat status {};

@@ -53,6 +53,8 @@ struct FusionOnlySettings {
   }
 };
 
+}  // namespace
+
 /// A relocaliser that learns always, and answers while it is on.
 class SwitchedRelocaliser final : public RelocaliserDecorator {
  public:
@@ -64,8 +66,6 @@ class SwitchedRelocaliser final : public RelocaliserDecorator {
 
   bool is_on = true;
 };
-
-}  // namespace
 
 void ReconstructionSettings::validate() const {
   fusion.validate();
