@@ -51,6 +51,12 @@ function(foothold_module name)
     target_link_libraries(${target} PRIVATE ${arg_PRIVATE})
   endif()
   set_property(GLOBAL APPEND PROPERTY FOOTHOLD_MODULES ${name})
+
+  # For its install: the modules that it links.
+  set(needed ${arg_PUBLIC} ${arg_PRIVATE})
+  list(FILTER needed INCLUDE REGEX "^foothold::")
+  list(TRANSFORM needed REPLACE "^foothold::" "")
+  set_property(GLOBAL PROPERTY FOOTHOLD_${name}_NEEDS ${needed})
 endfunction()
 
 # foothold_app(<name> SOURCES ... [LIBRARIES ...]): an executable in bin/.
