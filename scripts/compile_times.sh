@@ -4,9 +4,10 @@
 #
 # Compiles from scratch without a compiler cache, and prints what each file and each folder costs in processor seconds of the compiler.
 #
-#   scripts/compile_times.sh [PRESET] [TARGET...]      default: release relocalisation_benchmark, which is what scripts/demo.sh builds
+#   scripts/compile_times.sh [PRESET] [-DOPTION=VALUE...] [TARGET...]      default: release relocalisation_benchmark, which scripts/demo.sh builds
 #
 # Builds into build/compile-times/PRESET. TOP=N lists the N slowest files (default: 25). Processor time is hardly disturbed by other programs.
+# Sources that are compiled as one are listed as TARGET/unity_N; -DFOOTHOLD_UNITY=OFF compiles and lists each by itself.
 set -euo pipefail
 
 # As the compiler's launcher: runs the compiler, and appends "USER SYSTEM OBJECT" to the log, in seconds.
@@ -21,23 +22,26 @@ if [[ ${1:-} == --launch ]]; then
 fi
 
 cd "$(dirname "$0")/.."
-preset=${1:-release}
-shift || true
-targets=("${@:-relocalisation_benchmark}")
+preset=release
+source scripts/preset_arguments.sh
+[[ ${#others[@]} -gt 0 ]] || others=(relocalisation_benchmark)
 
 build=build/compile-times/$preset
 log=$PWD/$build/compile_times.log
 launcher="$PWD/scripts/compile_times.sh;--launch;$log"
 rm -rf "$build"
-cmake --preset "$preset" -B "$build" -DFOOTHOLD_CCACHE=OFF -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" -DCMAKE_CUDA_COMPILER_LAUNCHER="$launcher" >/dev/null
-cmake --build "$build" --parallel "$(nproc)" --target "${targets[@]}" >/dev/null
+export CCACHE_DISABLE=1
+cmake --preset "$preset" -B "$build" "${options[@]}" -DFOOTHOLD_CCACHE=OFF -DCMAKE_CXX_COMPILER_LAUNCHER="$launcher" -DCMAKE_CUDA_COMPILER_LAUNCHER="$launcher" >/dev/null
+cmake --build "$build" --parallel "$(nproc)" --target "${others[@]}" >/dev/null
 
-# build/modules/io/CMakeFiles/foothold_io.dir/src/text_file.cpp.o is src/text_file.cpp of modules/io.
+# modules/io/CMakeFiles/foothold_io.dir/src/text_file.cpp.o is src/text_file.cpp of modules/io; .../foothold_io.dir/Unity/unity_0_cxx.cxx.o is
+# foothold_io/unity_0.
 awk -v top="${TOP:-25}" '
   {
-    split($3, path, "/CMakeFiles/[^/]*/")
+    split($3, path, "/CMakeFiles/|[.]dir/")
     folder = path[1]
-    file = folder "/" path[2]
+    is_unity = sub(/^Unity\//, "", path[3]) && sub(/_cxx[.]cxx/, "", path[3])
+    file = folder "/" (is_unity ? path[2] "/" : "") path[3]
     sub(/\.o$/, "", file)
     seconds[file] = $1 + $2; sum[folder] += $1 + $2; total += $1 + $2; count[folder]++
   }

@@ -4,17 +4,15 @@
 #
 # Installs what is missing, builds everything that this machine can build, and runs all tests.
 #
-#   scripts/test.sh [PRESET] [CTEST-ARGUMENT...]      e.g.  scripts/test.sh asan --tests-regex base/
+#   scripts/test.sh [PRESET] [-DOPTION=VALUE...] [CTEST-ARGUMENT...]      e.g.  scripts/test.sh asan --tests-regex base/
 #
-# PRESET (default: ci) is one of the test presets of CMakePresets.json. Ends with ctest's own summary and exit status.
+# PRESET (default: ci) is one of the test presets of CMakePresets.json. Options go to scripts/build.sh, which keeps them.
+# Ends with ctest's own summary and exit status.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 preset=ci
-if [[ $# -gt 0 && $1 != -* ]]; then
-  preset=$1
-  shift
-fi
+source scripts/preset_arguments.sh
 
-scripts/build.sh "$preset"
-exec ctest --preset "$preset" --parallel 2 --timeout 300 --no-tests=error "$@"
+scripts/build.sh "$preset" "${options[@]}"
+exec ctest --preset "$preset" --parallel 2 --timeout 300 --no-tests=error "${others[@]}"
