@@ -13,9 +13,6 @@ namespace {
 constexpr float kMaxLostMotionM = 0.3F;
 constexpr float kMaxLostMotionDeg = 20.0F;
 constexpr float kMinLostInliers = 0.6F;
-/// From the last view that confirmed a pose, to one that may do so again (T: replay_sequence, rooms).
-constexpr float kNewViewM = 0.10F;
-constexpr float kNewViewDeg = 8.0F;
 
 }  // namespace
 

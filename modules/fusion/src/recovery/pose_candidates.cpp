@@ -11,8 +11,6 @@ namespace {
 // (T) replay_sequence, rendered rooms.
 constexpr float kSameM = 0.15F;  ///< odometry drifts, and refinement pulls
 constexpr float kSameDeg = 8.0F;
-constexpr float kNewViewM = 0.10F;  ///< motion that makes a view a new one
-constexpr float kNewViewDeg = 8.0F;
 constexpr float kMostOfOneView = 2.5F;  ///< log odds: views err together now and then
 constexpr float kContradicted = -0.5F;  ///< log odds at most of a view in which something is missing
 constexpr float kUnseen = -0.5F;        ///< log odds of a frame in which refinement did not come to a candidate

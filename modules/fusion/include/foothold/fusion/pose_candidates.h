@@ -11,6 +11,10 @@
 
 namespace foothold {
 
+/// Motion of the camera that makes a view a new one: evidence of its own (T: replay_sequence, office).
+inline constexpr float kNewViewM = 0.10F;
+inline constexpr float kNewViewDeg = 8.0F;
+
 /// How many poses a lost camera carries along, and how long.
 struct PoseCandidatesSettings {
   /// How many poses are carried along.
