@@ -112,9 +112,9 @@ struct ForestRelocaliserSettings {
   ClusteringSettings clustering;
   PoseEstimatorSettings pose;
   float acceptance_threshold = 0.75F;  ///< (T) docs/experiments/trust.md
-  int num_rolls = 8;                  ///< (P) 1, (T) 8, docs/experiments/rolled-cameras.md
-  float sure_confidence = 0.97F;      ///< (T) docs/experiments/rolled-cameras.md
-  float place_radius_m = 4.0F;        ///< (P) 16, as good as one place; (T) 4, docs/experiments/places.md
+  int num_rolls = 8;                   ///< (P) 1, (T) 8, docs/experiments/rolled-cameras.md
+  float sure_confidence = 0.97F;       ///< (T) docs/experiments/rolled-cameras.md
+  float place_radius_m = 4.0F;         ///< (P) 16, as good as one place; (T) 4, docs/experiments/places.md
   std::uint64_t seed = 42;
 
   template <class Visitor>
