@@ -50,19 +50,6 @@ Json curve_json(const std::vector<AcceptancePoint>& curve) {
   return json;
 }
 
-Json calibration_json(const std::vector<CalibrationBin>& bins) {
-  Json json = Json::array();
-  for (const CalibrationBin& bin : bins) {
-    json.push_back({{"low", bin.low},
-                    {"high", bin.high},
-                    {"num_answers", bin.num_answers},
-                    {"num_right", bin.num_right},
-                    {"mean_confidence", bin.mean_confidence},
-                    {"right_95", interval_json(bin.right_95)}});
-  }
-  return json;
-}
-
 Json method_json(const MethodConfidence& method) {
   const ConfidenceReport& report = method.report;
   return {{"num_samples", report.num_samples},

@@ -59,6 +59,19 @@ Json spread_json(const Spread& spread) { return {{"median", spread.median}, {"p9
 
 Json interval_json(const Interval& interval) { return Json::array({interval.low, interval.high}); }
 
+Json calibration_json(const std::vector<CalibrationBin>& bins) {
+  Json json = Json::array();
+  for (const CalibrationBin& bin : bins) {
+    json.push_back({{"low", bin.low},
+                    {"high", bin.high},
+                    {"num_answers", bin.num_answers},
+                    {"num_right", bin.num_right},
+                    {"mean_confidence", bin.mean_confidence},
+                    {"right_95", interval_json(bin.right_95)}});
+  }
+  return json;
+}
+
 Json novelty_json(const std::vector<NoveltyBin>& bins) {
   Json result = Json::array();
   for (const NoveltyBin& bin : bins) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/json.h"
+#include "foothold/evaluation/confidence_report.h"
 #include "result.h"
 
 namespace foothold::benchmark {
@@ -16,6 +17,8 @@ using apps::Json;
 
 Json interval_json(const Interval& interval);
 Json spread_json(const Spread& spread);
+/// The bins of a reliability diagram.
+Json calibration_json(const std::vector<CalibrationBin>& bins);
 Json novelty_json(const std::vector<NoveltyBin>& bins);
 
 /// Format, version, protocol, settings and machine: the beginning of every document.

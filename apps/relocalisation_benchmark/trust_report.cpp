@@ -59,19 +59,6 @@ Json risk_coverage_json(const ConfidenceReport& report) {
   return json;
 }
 
-Json reliability_json(const ConfidenceReport& report) {
-  Json json = Json::array();
-  for (const CalibrationBin& bin : report.calibration) {
-    json.push_back({{"low", bin.low},
-                    {"high", bin.high},
-                    {"num_answers", bin.num_answers},
-                    {"num_right", bin.num_right},
-                    {"mean_confidence", bin.mean_confidence},
-                    {"right_95", interval_json(bin.right_95)}});
-  }
-  return json;
-}
-
 Json wrong_belief_json(const WrongBelief& wrong) {
   Json json = {{"map", wrong.map},
                {"kind", wrong.kind},
@@ -101,7 +88,7 @@ Json method_json(const MethodTrust& method) {
     json["maps"][map.name]["calibration_error"] = map.confidence.calibration_error;
   }
   json["risk_coverage"] = risk_coverage_json(method.confidence);
-  json["reliability"] = reliability_json(method.confidence);
+  json["reliability"] = calibration_json(method.confidence.calibration);
   json["wrong_beliefs"] = Json::array();
   for (const WrongBelief& wrong : method.wrong_beliefs) json["wrong_beliefs"].push_back(wrong_belief_json(wrong));
   return json;

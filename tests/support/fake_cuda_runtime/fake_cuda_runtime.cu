@@ -23,7 +23,7 @@ struct FakeEvent {
 
 FakeCudaRuntime& runtime() { return FakeCudaRuntime::instance(); }
 
-/// Names of kernels by the addresses of their stubs.
+/// Names of kernels by the addresses of their host functions.
 std::map<const void*, std::string>& kernel_names() {
   static std::map<const void*, std::string> names;
   return names;
@@ -89,8 +89,8 @@ void** CUDARTAPI __cudaRegisterFatBinary(void*) {
 void CUDARTAPI __cudaRegisterFatBinaryEnd(void**) {}
 void CUDARTAPI __cudaUnregisterFatBinary(void**) {}
 void CUDARTAPI __cudaRegisterVar(void**, char*, char*, const char*, int, std::size_t, int, int) {}
-void CUDARTAPI __cudaRegisterFunction(void**, const char* stub, char*, const char* name, int, uint3*, uint3*, dim3*, dim3*, int*) {
-  kernel_names()[stub] = demangled(name);
+void CUDARTAPI __cudaRegisterFunction(void**, const char* host_function, char*, const char* name, int, uint3*, uint3*, dim3*, dim3*, int*) {
+  kernel_names()[host_function] = demangled(name);
 }
 unsigned CUDARTAPI __cudaPushCallConfiguration(dim3 grid, dim3 block, std::size_t shared_bytes, CUstream_st* stream) {
   configuration = {grid, block, shared_bytes, stream};
@@ -103,8 +103,8 @@ cudaError_t CUDARTAPI __cudaPopCallConfiguration(dim3* grid, dim3* block, std::s
   *static_cast<void**>(stream) = configuration.stream;
   return cudaSuccess;
 }
-cudaError_t CUDARTAPI __cudaGetKernel(cudaKernel_t* kernel, const void* stub) {
-  *kernel = static_cast<cudaKernel_t>(const_cast<void*>(stub));
+cudaError_t CUDARTAPI __cudaGetKernel(cudaKernel_t* kernel, const void* host_function) {
+  *kernel = static_cast<cudaKernel_t>(const_cast<void*>(host_function));
   return cudaSuccess;
 }
 cudaError_t CUDARTAPI __cudaLaunchKernel(cudaKernel_t kernel, dim3 grid, dim3 block, void**, std::size_t, cudaStream_t stream) {

@@ -43,13 +43,12 @@ struct ConfrontPoints {
     const float scale = 1.0F / (sums[kInView] + kPrior);
     agreement->agreeing_fraction = sums[kAgreeing] * scale;
     agreement->contradicted_fraction = sums[kContradicted] * scale;
-    agreement->alike_fraction = sums[kAlike] * scale;
     agreement->colour_correlation = correlation(sums);
     agreement->valid = 1;
   }
 
  private:
-  enum Sum { kInView, kContradicted, kAgreeing, kAlike, kLive, kScene, kLive2, kScene2, kLiveScene, kNumSums };
+  enum Sum { kInView, kContradicted, kAgreeing, kLive, kScene, kLive2, kScene2, kLiveScene, kNumSums };
   static constexpr float kPrior = 20.0F;  ///< (T) a few points prove nothing
 
   FOOTHOLD_HD FOOTHOLD_INLINE void add_point(const Eigen::Vector3f& point_camera, const RememberedPoint& point,
@@ -69,7 +68,6 @@ struct ConfrontPoints {
     const float live = grey_level(pixel.r(), pixel.g(), pixel.b()) * (1.0F / 128.0F) - 1.0F;
     const float scene = grey_level(point.rgb[0], point.rgb[1], point.rgb[2]) * (1.0F / 128.0F) - 1.0F;
     sums[kAgreeing] += 1.0F;
-    sums[kAlike] += is_alike(pixel, point) ? 1.0F : 0.0F;
     sums[kLive] += live;
     sums[kScene] += scene;
     sums[kLive2] += live * live;

@@ -50,13 +50,12 @@ struct TileCounts {
 struct SceneAgreement {
   float agreeing_fraction;      ///< of the points in view, at the measured depth
   float contradicted_fraction;  ///< of the points in view, seen through
-  float alike_fraction;         ///< of the points in view, at the measured depth and of the measured colour
   float colour_correlation;     ///< of the grey values of agreeing points and their pixels; whatever the light
   float contradicted_tiles;     ///< of the tiles where the scene is remembered, those most of whose points are seen through
   float explained_tiles;        ///< of the tiles with depth, those where points agree
   std::int32_t valid;           ///< 0 if there was nothing to confront the pose with
 };
-static_assert(sizeof(SceneAgreement) == 28, "copied from the device");
+static_assert(sizeof(SceneAgreement) == 24, "copied from the device");
 
 /// Owns all of it.
 struct Ranking {

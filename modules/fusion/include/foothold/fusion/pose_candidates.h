@@ -11,8 +11,9 @@
 
 namespace foothold {
 
-/// Motion of the camera that makes a view a new one: evidence of its own (T: replay_sequence, office).
+/// Motion of the camera that makes a view a new one [m]: evidence of its own (T: replay_sequence, office).
 inline constexpr float kNewViewM = 0.10F;
+/// The same for rotation [deg].
 inline constexpr float kNewViewDeg = 8.0F;
 
 /// How many poses a lost camera carries along, and how long.
