@@ -23,7 +23,7 @@ using test::EmulatedCuda;
 /// Training: 5 tell new examples from known ones, before anything is learnt, and colour what is kept; the modes are updated twice.
 constexpr int kLaunchesOfTraining = 30;
 constexpr int kLaunchesOfRelocalisation = 6;  // 3 of them count the votes for places
-constexpr int kLaunchesOfView = 65;           // that is tried; 3 of them confront its pose with the scene
+constexpr int kLaunchesOfView = 63;           // that is tried; 3 of them confront its pose with the scene
 constexpr int kLaunchesOfFusion = 63;
 constexpr int kLaunchesOfRefinement = 159;
 

@@ -66,6 +66,18 @@ TEST_CASE("ForestRelocaliser: finds frames between those it was trained on, to 5
   REQUIRE(num_right >= 18);
 }
 
+TEST_CASE("ForestRelocaliser: a camera lost a moment ago is found where tracking ended, though the tracker had drifted") {
+  ForestRelocaliser relocaliser = trained();
+  SE3 drift;
+  drift.translation = {0.015F, -0.01F, 0.015F};
+  relocaliser.train(office()[20].view(), drift * *office()[20].world_from_camera);
+  const auto estimates = relocaliser.relocalise(office()[21].view());
+  REQUIRE_FALSE(estimates.empty());
+  REQUIRE(translation_distance_m(estimates[0].world_from_camera, drift * *office()[21].world_from_camera) < 0.006F);
+  // Where the last camera did not look, what was learnt before counts.
+  REQUIRE(translation_distance_m(relocaliser.relocalise(office()[1].view())[0].world_from_camera, *office()[1].world_from_camera) < 0.015F);
+}
+
 TEST_CASE("ForestRelocaliser: a scene far from the world's origin is found as well") {
   ForestRelocaliser relocaliser = untrained();
   SE3 elsewhere;

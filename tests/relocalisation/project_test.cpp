@@ -3,9 +3,11 @@
 #include "pose/project_kernels.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "foothold/base/exec/cpu_executor.h"
+#include "pose/rejoin_kernels.h"
 #include "support/catch.h"
 #include "support/random_seed.h"
 
@@ -61,10 +63,7 @@ AlignmentState align(const std::vector<RememberedPoint>& points, const SE3& star
   const std::vector<FeaturePixel> pixels = corner();
   const SurfaceEstimator estimator{{pixels.data(), kWidth, kHeight, 1.0F}, kCamera, 2};
   AlignmentState state{start, 1.0F, 0};
-  for (int i = 0; i < num_steps; ++i) {
-    const AlignByProjection<CpuExecutor> step{estimator, points.data(), static_cast<int>(points.size()), 0.1F, &state};
-    step(CpuTeam{}, 0);
-  }
+  for (int i = 0; i < num_steps; ++i) AlignByProjection<CpuExecutor, DrawnPoints>{estimator, {points}, 1, 0.05F, &state}(CpuTeam{}, 0);
   return state;
 }
 
@@ -101,6 +100,33 @@ TEST_CASE("AlignByProjection: points that are not valid, behind the camera or on
   for (int i = 0; i < 500; ++i) points.push_back(remembered({random.uniform(-1.0F, 1.0F), 0.0F, -2.0F}));
   const SE3 start = random_pose(random, 0.01F, 0.02F);
   REQUIRE(translation_distance_m(align(points, start, 1).scene_from_camera, start) == 0.0F);
+}
+
+TEST_CASE("Rejoin: a pose is drawn to the points of the latest camera, unless few of them are in view or none had depth") {
+  Random random = test::test_random();
+  const std::vector<FeaturePixel> pixels = corner();
+  const SE3 truth = random_pose(random, 0.5F, 1.0F);
+  const SE3 start = truth * random_pose(random, 0.004F, 0.01F);
+  std::vector<ReservoirPoint> in_view;
+  for (const RememberedPoint& point : points_of_corner(random, 2000, truth)) {
+    const auto mm = [&](int k) { return static_cast<std::int16_t>(std::lround(1000.0F * point.point_scene[k])); };
+    in_view.push_back({mm(0), mm(1), mm(2), 0});
+  }
+  std::vector<ReservoirPoint> hardly_in_view(8 * in_view.size(), {0, 0, -30000, 0});
+  std::copy(in_view.begin(), in_view.end(), hardly_in_view.begin());
+  const std::vector<ReservoirPoint> without_depth(2000);
+  const struct {
+    const std::vector<ReservoirPoint>& points;
+    bool moves;
+  } cases[] = {{in_view, true}, {hardly_in_view, false}, {without_depth, false}};
+  for (const auto& c : cases) {
+    AlignmentState state{start, 1.0F, 0};
+    PoseCandidate best;
+    const SurfaceEstimator estimator{{pixels.data(), kWidth, kHeight, 1.0F}, kCamera, 2};
+    Rejoin<CpuExecutor>{{estimator, {c.points}, 8, 0.03F, &state}, &best}(CpuTeam{}, 0);
+    if (c.moves) REQUIRE(translation_distance_m(best.scene_from_camera, truth) < 0.002F);
+    if (!c.moves) REQUIRE(translation_distance_m(best.scene_from_camera, start) == 0.0F);
+  }
 }
 
 }  // namespace

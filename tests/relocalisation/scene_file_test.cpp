@@ -127,7 +127,7 @@ TEST_CASE("ForestRelocaliser::load: says what is wrong with a scene of another k
   REQUIRE(contains(scene.error_of("PLY, and then some more bytes to read"), "not a scene of a forest relocaliser of Foothold"));
   std::string other = scene.bytes;
   other[8] = 77;
-  REQUIRE(contains(scene.error_of(other), "a scene of a forest relocaliser of version 77, expected version 4"));
+  REQUIRE(contains(scene.error_of(other), "a scene of a forest relocaliser of version 77, expected version 5"));
   REQUIRE(contains(scene.error_of(SmallScene(43).bytes), "another forest"));
   ForestRelocaliserSettings settings = SmallScene::settings();
   settings.reservoirs.capacity = 48;

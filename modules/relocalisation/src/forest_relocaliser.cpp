@@ -17,7 +17,8 @@
 namespace foothold {
 namespace {
 
-constexpr BinaryFormat kSceneFormat{"scene of a forest relocaliser", "FHFSCENE", 4};  // 3: place by place; 4: in pieces
+constexpr BinaryFormat kSceneFormat{"scene of a forest relocaliser", "FHFSCENE",
+                                    5};  // 3: place by place; 4: in pieces; 5: with the latest view
 
 /// True if a frame has at least one block of pixels to average; smaller ones hold nothing to learn or to find.
 bool has_blocks(const Frame& frame, const FeatureSettings& settings) {
@@ -87,6 +88,7 @@ bool ForestRelocaliser::State::learn(const Frame& frame, const SE3& world_from_c
     return false;
   }
   ++num_frames;
+  place.learnt.swap_offered(place.latest);
   {
     const ScopedStage stage(context, "train/features");
     image.compute(context, frame, scaled_to_width(settings.features.downscale, frame.depth.width));

@@ -29,6 +29,12 @@ class LearntViews {
   /// @param examples_per_view  how often is enough; 0 if it never is, and nothing is counted. [0, 255]
   void keep_new(const Context& context, const Eigen::Vector3f& camera_scene, int examples_per_view, TrainingExamples& examples);
 
+  /// Hands over the points of all examples that keep_new() was last offered, known or not, for an array to work in.
+  void swap_offered(Array<ReservoirPoint>& points) {
+    points.resize(unfiltered_.points.size());  // now, so that no later frame allocates
+    unfiltered_.points.swap(points);
+  }
+
   std::size_t state_bytes() const { return slots_.size() * sizeof(std::uint64_t); }
 
   void save(CheckedWriter& writer) const;

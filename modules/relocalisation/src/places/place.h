@@ -8,6 +8,7 @@
 
 #include "clustering/leaf_modes.h"
 #include "examples/learnt_views.h"
+#include "foothold/base/array.h"
 #include "foothold/base/se3.h"
 #include "reservoirs/leaf_reservoirs.h"
 
@@ -20,11 +21,12 @@ struct Place {
   LearntViews learnt;
   LeafReservoirs reservoirs;
   LeafModes modes;
-  bool is_used = false;    ///< something was learnt
-  bool is_settled = true;  ///< all that was learnt is in the modes
+  Array<ReservoirPoint> latest;  ///< what the camera that was learnt last saw, on its pixel grid; (0, 0, 0) where there was no depth
+  bool is_used = false;          ///< something was learnt
+  bool is_settled = true;        ///< all that was learnt is in the modes
 
   std::size_t state_bytes(const Context& context) const {
-    return learnt.state_bytes() + reservoirs.state_bytes(context) + modes.state_bytes(context);
+    return learnt.state_bytes() + reservoirs.state_bytes(context) + modes.state_bytes(context) + latest.num_bytes();
   }
   SE3 place_from_camera(const SE3& world_from_camera) const {
     return {world_from_camera.rotation, world_from_camera.translation - origin_world};

@@ -87,7 +87,7 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   float confidence = 0.0F;
   const auto attempt = [&](const PlaceVote& vote) {
     Place& place = places[vote.place];
-    const PlaceView view{place.reservoirs.view(), place.modes.view()};
+    const PlaceView view{place.reservoirs.view(), place.modes.view(), Span<const ReservoirPoint>(place.latest)};
     std::vector<PoseEstimate> estimates = estimates_of(estimator_.estimate(context, query, view, forest.view(vote.roll)), place);
     if (estimates.empty()) return;
     if (attempts.empty() || estimates.front().confidence > confidence) {

@@ -4,15 +4,19 @@
 
 #include <string>
 
+#include "examples/surface_pieces.h"
 #include "foothold/base/checked_stream.h"
 #include "foothold/base/random.h"
 
 namespace foothold {
+namespace {
+constexpr std::uint64_t kMostLatestPoints = std::uint64_t{1} << kExampleBits;
+}  // namespace
 
 Place ScenePlaces::make_place(const Eigen::Vector3f& origin_world) const {
   const std::uint64_t seed = places_.empty() ? settings_.seed : derive_seed(settings_.seed, places_.size());
   return {origin_world, LearntViews(context_.memory()), LeafReservoirs(context_, num_leaves_, settings_.reservoirs, seed),
-          LeafModes(context_, num_leaves_, settings_.clustering)};
+          LeafModes(context_, num_leaves_, settings_.clustering), Array<ReservoirPoint>(context_.memory())};
 }
 
 std::size_t ScenePlaces::learning(const Eigen::Vector3f& camera_world) {
@@ -45,6 +49,7 @@ void ScenePlaces::save(CheckedWriter& writer) const {
     place.learnt.save(writer);
     place.reservoirs.save(writer);
     place.modes.save(writer);
+    writer.write_array(place.latest.to_host());
   }
 }
 
@@ -60,6 +65,7 @@ void ScenePlaces::load(CheckedReader& reader, std::uint64_t num_frames) {
     place.learnt.load(context_, reader);
     place.reservoirs.load(reader);
     place.modes.load(reader);
+    place.latest.assign(reader.read_array<ReservoirPoint>("latest points", 0, kMostLatestPoints));
     place.is_used = true;
     place.is_settled = false;
     places_.push_back(std::move(place));

@@ -163,22 +163,22 @@ class Aligner {
   void run(const CorrespondencePool& pool, const Ranking& ranking, Hypotheses& hypotheses, Alignment& alignment) const {
     AlignmentState* const state = alignment.state.data();
     executor_.for_each(1, BeginAlignment{hypotheses.view(), state});
-    for (int i = 0; i < kProjectionSteps; ++i) project(i, ranking, state);
+    project(ranking, state);
     for (int i = 0; i < kLeafSteps; ++i) approach(i, pool, alignment);
     executor_.for_each(1, EndAlignment{state, hypotheses.view(), alignment.misfits.data()});
   }
 
  private:
   static constexpr int kProjectionSteps = 4;            ///< (T)
-  static constexpr float kProjectionDistanceM = 0.08F;  ///< (T) reach of a projected point; twice that in the first half of the steps
+  static constexpr float kProjectionDistanceM = 0.08F;  ///< (T) reach of a projected point
   static constexpr int kLeafSteps = 5;                  ///< (T)
   static constexpr float kFirstReachM = 0.06F;          ///< (T) of a sample, in the first of these steps
   static constexpr float kLastReachM = 0.04F;           ///< (T) in the last
 
-  void project(int step, const Ranking& ranking, AlignmentState* state) const {
-    const float distance_m = kProjectionDistanceM * (2 * step < kProjectionSteps ? 2.0F : 1.0F);
+  void project(const Ranking& ranking, AlignmentState* state) const {
+    const DrawnPoints points{Span<const RememberedPoint>(ranking.points)};
     executor_.for_each_team(
-        1, AlignByProjection<Executor>{surface_estimator(query_), ranking.points.data(), kRememberedPoints, distance_m, state});
+        1, AlignByProjection<Executor, DrawnPoints>{surface_estimator(query_), points, kProjectionSteps, kProjectionDistanceM, state});
   }
 
   void approach(int step, const CorrespondencePool& pool, Alignment& alignment) const {

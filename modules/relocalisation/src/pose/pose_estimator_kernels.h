@@ -10,6 +10,7 @@
 ///   align_kernels.h       beyond the paper: the best candidate aligned with what the scene remembers (surface_, project_kernels.h)
 ///   confront_kernels.h    beyond the paper: the best candidate confronted with what the scene remembers
 ///   evaluate_kernels.h    what the candidates explain
+///   rejoin_kernels.h      beyond the paper: the best candidate drawn to what the camera that was learnt last saw
 #pragma once
 
 #include <algorithm>
@@ -22,6 +23,7 @@
 #include "pose/pose_estimator.h"
 #include "pose/rank_kernels.h"
 #include "pose/refine_kernels.h"
+#include "pose/rejoin_kernels.h"
 #include "pose/score_kernels.h"
 
 namespace foothold {
@@ -80,6 +82,7 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
                          EvaluateCandidates<Executor>{pool, buffers.pool.sampled.data(), buffers.pool.sampled.size(), hypotheses.view(),
                                                       buffers.alignment.misfits.data(), buffers.ranking.agreement.data(), num_candidates,
                                                       plan.energy_truncation, buffers.candidates.data()});
+  if (plan.confronts_scene) rejoin(executor, query, place.latest, buffers.alignment, buffers.candidates);
 }
 
 /// Culls, then pre-emptive RANSAC. Those that lose keep their places behind those that win.

@@ -23,6 +23,7 @@ struct PoseQuery {
 struct PlaceView {
   LeafReservoirsView reservoirs;
   LeafModesView leaf_modes;
+  Span<const ReservoirPoint> latest;  ///< what the camera that was learnt last saw
 };
 
 }  // namespace foothold

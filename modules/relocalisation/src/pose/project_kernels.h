@@ -9,36 +9,59 @@
 
 namespace foothold {
 
-/// One step by one team: the surface at the pixel that each remembered point projects to is drawn along its normal to that point.
-template <class Executor>
+/// Points drawn from the whole scene.
+struct DrawnPoints {
+  Span<const RememberedPoint> points;
+
+  FOOTHOLD_HD float min_supported() const { return 100.0F; }
+  FOOTHOLD_HD std::size_t size() const { return points.size(); }
+  FOOTHOLD_HD bool get(std::size_t i, Eigen::Vector3f& point_scene) const {
+    const RememberedPoint& point = points[i];
+    point_scene = {point.point_scene[0], point.point_scene[1], point.point_scene[2]};
+    return point.valid != 0;
+  }
+};
+
+/// Steps by one team: in each, the surface at the pixel that each point of the scene projects to is drawn along its normal to that point.
+template <class Executor, class Points>
 struct AlignByProjection {
   SurfaceEstimator estimator;
-  const RememberedPoint* points;
-  int num_points;
-  float distance_m;  ///< points further from the surface count nothing
+  Points points;  ///< with size(), get(), and min_supported(): fewer of them on surfaces of the frame leave the pose as it is (T)
+  int num_steps;
+  float distance_m;  ///< points further from the surface count nothing; twice that in the first half of the steps
   AlignmentState* state;
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
+    for (int step = 0; step < num_steps; ++step) {
+      take_step(team, distance_m * (2 * step < num_steps ? 2.0F : 1.0F));
+      team.sync();
+    }
+  }
+
+ private:
+  FOOTHOLD_HD void take_step(const typename Executor::Team& team, float reach_m) const {
     const SE3 pose = state->scene_from_camera;
     float sums[kNumSums] = {};
-    for (int i = team.lane(); i < num_points; i += team.size()) {
-      if (points[i].valid != 0) add_point(pose, points[i], sums);
+    const auto num_points = static_cast<std::uint32_t>(points.size());
+    for (auto i = static_cast<std::uint32_t>(team.lane()); i < num_points; i += static_cast<std::uint32_t>(team.size())) {
+      Eigen::Vector3f point_scene;
+      if (points.get(i, point_scene)) add_point(pose, point_scene, reach_m, sums);
     }
     team.sum_all(sums);
     if (team.lane() != 0) return;
     float twist[6];
-    if (sums[kNumSupported] >= kMinSupported && solve_for_twist(sums, kDamping, twist)) state->scene_from_camera = perturbed(pose, twist);
+    if (sums[kNumSupported] >= points.min_supported() && solve_for_twist(sums, kDamping, twist)) {
+      state->scene_from_camera = perturbed(pose, twist);
+    }
   }
 
- private:
   static constexpr int kNumSupported = kNumHessian + 6;  ///< points on a surface of the frame
   static constexpr int kNumSums = kNumSupported + 1;
-  static constexpr float kMinSupported = 100.0F;  ///< points below which the pose stays as it is
   static constexpr float kDamping = 1e-4F;
   static constexpr float kNearestM = 0.3F;
 
-  FOOTHOLD_HD FOOTHOLD_INLINE void add_point(const SE3& pose, const RememberedPoint& point, float (&sums)[kNumSums]) const {
-    const Eigen::Vector3f point_scene(point.point_scene[0], point.point_scene[1], point.point_scene[2]);
+  FOOTHOLD_HD FOOTHOLD_INLINE void add_point(const SE3& pose, const Eigen::Vector3f& point_scene, float reach_m,
+                                             float (&sums)[kNumSums]) const {
     const Eigen::Vector3f point_camera = pose.rotation.transpose() * (point_scene - pose.translation);
     if (!(point_camera.z() > kNearestM)) return;
     const Eigen::Vector2f pixel = estimator.intrinsics.project(point_camera);
@@ -46,11 +69,11 @@ struct AlignByProjection {
     const auto v = static_cast<int>(std::floor(pixel.y() + 0.5F));
     if (u < 0 || v < 0 || u >= estimator.image.width || v >= estimator.image.height) return;
     const float gap_m = static_cast<float>(estimator.image.pixels[v * estimator.image.width + u].depth_mm()) * 1e-3F - point_camera.z();
-    if (!(std::fabs(gap_m) < kSlantMargin * distance_m)) return;  // before the costly part
+    if (!(std::fabs(gap_m) < kSlantMargin * reach_m)) return;  // before the costly part
     const SurfaceSample surface = estimator.surface_at(u, v);
     if (!has_normal(surface)) return;
     const float residual_m = normal_of(surface).dot(point_camera - point_of(surface));
-    const float closeness = 1.0F - residual_m * residual_m / (distance_m * distance_m);
+    const float closeness = 1.0F - residual_m * residual_m / (reach_m * reach_m);
     if (!(closeness > 0.0F)) return;
     add_point_to_plane(pose * point_of(surface), pose.rotation * normal_of(surface), residual_m, closeness * closeness, sums);
     sums[kNumSupported] += 1.0F;
