@@ -41,7 +41,7 @@ void read_list(const std::string& bytes, std::uint64_t chain = kFnvBasis) {
   REQUIRE(goods == "milk");
 }
 
-std::string error_of(const std::string& bytes, std::uint64_t chain = kFnvBasis) {
+std::string reading_error(const std::string& bytes, std::uint64_t chain = kFnvBasis) {
   return test::error_message<FileError>([&] { read_list(bytes, chain); });
 }
 
@@ -125,28 +125,28 @@ TEST_CASE("CheckedReader: any flipped bit is noticed") {
     INFO("bit " << place);
     std::string bad = good;
     bad[place / 8] = static_cast<char>(bad[place / 8] ^ static_cast<char>(1U << place % 8));
-    CHECK(contains(error_of(bad), "a.list: "));
+    CHECK(contains(reading_error(bad), "a.list: "));
   }
 }
 
 TEST_CASE("CheckedReader: another kind, another version, too long a piece, more behind the end: each is named with what was expected") {
-  CHECK(contains(error_of("FHSHOES\n and more"),
+  CHECK(contains(reading_error("FHSHOES\n and more"),
                  "a.list: not a shopping list of Foothold: begins with 'FHSHOES\\x0a', expected 'FHSHOPS\\x0a'"));
   std::string bad = small_list();
   bad[8] = 9;
-  CHECK(contains(error_of(bad), "a.list: a shopping list of version 9, expected version 3"));
+  CHECK(contains(reading_error(bad), "a.list: a shopping list of version 9, expected version 3"));
   bad = small_list();
   bad[kHeadBytes + 3] = 1;
-  CHECK(contains(error_of(bad), "in its price: got a piece of 16777252 bytes, expected at most 1048576"));
+  CHECK(contains(reading_error(bad), "in its price: got a piece of 16777252 bytes, expected at most 1048576"));
   bad = small_list();
   bad[kHeadBytes + 4] = 'x';
-  CHECK(contains(error_of(bad), "damaged, in its price: checksum "));
-  CHECK(contains(error_of(small_list() + "x"), "a.list: goes on behind its end"));
+  CHECK(contains(reading_error(bad), "damaged, in its price: checksum "));
+  CHECK(contains(reading_error(small_list() + "x"), "a.list: goes on behind its end"));
 }
 
 TEST_CASE("CheckedReader: data does not pass behind other data than that before which it was written") {
   read_list(small_list(7), 7);
-  CHECK(contains(error_of(small_list(7), 8), "damaged"));
+  CHECK(contains(reading_error(small_list(7), 8), "damaged"));
 }
 
 TEST_CASE("CheckedReader: counts out of range, and contents that are left, are refused before memory is taken") {

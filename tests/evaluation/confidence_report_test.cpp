@@ -13,7 +13,7 @@ namespace foothold {
 namespace {
 
 /// Double precision over a few hundred terms.
-constexpr double kTolerance = 1e-12;
+constexpr double kRateTolerance = 1e-12;
 
 std::vector<ConfidenceSample> random_samples(Random& random, int count) {
   std::vector<ConfidenceSample> samples;
@@ -48,8 +48,8 @@ AcceptancePoint naive_point(const std::vector<ConfidenceSample>& samples, double
 void require_equal(const AcceptancePoint& a, const AcceptancePoint& b) {
   REQUIRE(a.num_accepted == b.num_accepted);
   REQUIRE(a.num_false_accepts == b.num_false_accepts);
-  REQUIRE(std::abs(a.recall - b.recall) < kTolerance);
-  REQUIRE(std::abs(a.false_accept_rate - b.false_accept_rate) < kTolerance);
+  REQUIRE(std::abs(a.recall - b.recall) < kRateTolerance);
+  REQUIRE(std::abs(a.false_accept_rate - b.false_accept_rate) < kRateTolerance);
 }
 
 TEST_CASE("make_confidence_report: each point of the curve counts what its threshold accepts") {
@@ -79,7 +79,7 @@ TEST_CASE("make_confidence_report: bins hold every answer once, and errors vanis
   for (const CalibrationBin& bin : report.calibration) {
     num_answers += bin.num_answers;
     num_right += bin.num_right;
-    if (bin.num_answers > 0) REQUIRE((bin.low - kTolerance <= bin.mean_confidence && bin.mean_confidence <= bin.high + kTolerance));
+    if (bin.num_answers > 0) REQUIRE((bin.low - kRateTolerance <= bin.mean_confidence && bin.mean_confidence <= bin.high + kRateTolerance));
   }
   REQUIRE(num_answers == report.num_answers);
   REQUIRE(num_right == report.num_answers - report.curve.back().num_false_accepts);

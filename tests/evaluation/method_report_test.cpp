@@ -12,7 +12,7 @@ namespace foothold {
 namespace {
 
 /// Offsets of single-precision positions.
-constexpr double kTolerance = 1e-6;
+constexpr double kReportTolerance = 1e-6;
 
 /// Frames 1..400 answered in turn: frame i gets answer i modulo 8.
 RunLog run_with_known_answers() {
@@ -57,8 +57,8 @@ TEST_CASE("make_report: accepted recall, false accepts and the false-confidence 
 TEST_CASE("make_report: medians are over the answered frames, the first success is the first found frame") {
   const MethodReport report = make_report(run_with_known_answers());
   REQUIRE(report.first_success_frame == 2);
-  REQUIRE(report.median_translation_m == Approx(0.06).margin(kTolerance));  // between .04 and .08
-  REQUIRE(report.median_rotation_deg == Approx(0.0).margin(kTolerance));
+  REQUIRE(report.median_translation_m == Approx(0.06).margin(kReportTolerance));  // between .04 and .08
+  REQUIRE(report.median_rotation_deg == Approx(0.0).margin(kReportTolerance));
   REQUIRE(report.state_mb == Approx(1.5));
 }
 

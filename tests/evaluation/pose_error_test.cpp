@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRadPerDeg = 0.017453292519943295;
 /// Single precision poses of a few metres.
-constexpr double kTolerance = 1e-5;
+constexpr double kErrorTolerance = 1e-5;
 
 TEST_CASE("pose_error: is what a pose was displaced by, wherever it is") {
   Random random = test::test_random();
@@ -25,8 +25,8 @@ TEST_CASE("pose_error: is what a pose was displaced by, wherever it is") {
     displaced.rotation = displaced.rotation * se3_exp((Tangent6() << 0, angle_rad, 0, 0, 0, 0).finished()).rotation;
     displaced.translation += displaced.rotation * Eigen::Vector3f(0, 0, distance_m);
     const PoseError error = pose_error(displaced, se3_exp(pose));
-    REQUIRE(error.translation_m == Approx(distance_m).margin(kTolerance));
-    REQUIRE(error.rotation_rad == Approx(angle_rad).margin(kTolerance));
+    REQUIRE(error.translation_m == Approx(distance_m).margin(kErrorTolerance));
+    REQUIRE(error.rotation_rad == Approx(angle_rad).margin(kErrorTolerance));
   }
 }
 

@@ -12,7 +12,7 @@ namespace foothold {
 namespace {
 
 /// Double precision over a few hundred terms.
-constexpr double kTolerance = 1e-12;
+constexpr double kStatisticTolerance = 1e-12;
 
 /// Counts pairs: the definition of the area under the ROC curve.
 double roc_area_of_pairs(const std::vector<double>& scores, const std::vector<bool>& right) {
@@ -38,7 +38,7 @@ TEST_CASE("roc_area: equals the share of pairs in the right order, ties counting
       scores.push_back(random.below(num_levels));
       right.push_back(random.below(2) == 1);
     }
-    REQUIRE(std::abs(roc_area(scores, right) - roc_area_of_pairs(scores, right)) < kTolerance);
+    REQUIRE(std::abs(roc_area(scores, right) - roc_area_of_pairs(scores, right)) < kStatisticTolerance);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 
+#include "foothold/io/sequence.h"
 #include "foothold/io/seven_scenes_writer.h"
 
 namespace foothold::test {
@@ -14,6 +15,13 @@ namespace fs = std::filesystem;
 
 void truncate_file(const std::string& path, double fraction) {
   fs::resize_file(path, static_cast<std::uintmax_t>(fraction * static_cast<double>(fs::file_size(path))));
+}
+
+std::string reading_error(const std::string& folder) {
+  return error_of([&] {
+    const auto sequence = open_sequence(folder, Context());
+    for (int i = 0; i < sequence->num_frames(); ++i) sequence->load(i);
+  });
 }
 
 RgbdFrame small_frame(int i) {

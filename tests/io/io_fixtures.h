@@ -22,6 +22,9 @@ constexpr int kTestHeight = 24;
 /// Frame i of a small recording: every pixel, colour and pose differs from those of other frames. Depths are whole millimetres.
 RgbdFrame small_frame(int i);
 
+/// The message of the FileError that opening a recording and loading all its frames throws.
+std::string reading_error(const std::string& folder);
+
 /// Writes a 7-Scenes folder of `num_frames` small frames.
 void write_small_recording(const std::string& folder, int num_frames);
 

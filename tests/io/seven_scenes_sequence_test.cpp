@@ -17,14 +17,6 @@ using namespace test;
 using Catch::Matchers::Contains;
 namespace fs = std::filesystem;
 
-/// What opening and reading a whole folder complains about.
-std::string open_error(const std::string& folder) {
-  return error_of([&] {
-    const auto sequence = open_sequence(folder, Context());
-    for (int i = 0; i < sequence->num_frames(); ++i) sequence->load(i);
-  });
-}
-
 bool same_depth(const Image<float>& a, const Image<float>& b) {
   return a.width() == b.width() && a.height() == b.height() && std::equal(a.data(), a.data() + a.size(), b.data());
 }
@@ -195,16 +187,16 @@ TEST_CASE("open_sequence: each thing missing from a 7-Scenes folder is named") {
   write_small_recording(temp.path(), 3);
   const std::string name = GENERATE(as<std::string>{}, "frame-000001.color.png", "frame-000001.depth.png", "frame-000002.depth.png");
   fs::remove(temp / name);
-  CHECK_THAT(open_error(temp.path()), Contains(temp / name) && Contains("no such file"));
+  CHECK_THAT(reading_error(temp.path()), Contains(temp / name) && Contains("no such file"));
 }
 
 TEST_CASE("open_sequence: a gap in the numbering is explained") {
   const TempFolder temp;
   write_small_recording(temp.path(), 4);
   for (const std::string suffix : {".color.png", ".depth.png", ".pose.txt"}) fs::remove(temp / ("frame-000002" + suffix));
-  CHECK_THAT(open_error(temp.path()), Contains("frame-000002.depth.png") && Contains("without gaps") && Contains("frame 3"));
+  CHECK_THAT(reading_error(temp.path()), Contains("frame-000002.depth.png") && Contains("without gaps") && Contains("frame 3"));
   for (const std::string suffix : {".color.png", ".depth.png", ".pose.txt"}) fs::remove(temp / ("frame-000000" + suffix));
-  CHECK_THAT(open_error(temp.path()), Contains("frame-000000.depth.png") && Contains("from 0"));
+  CHECK_THAT(reading_error(temp.path()), Contains("frame-000000.depth.png") && Contains("from 0"));
 }
 
 TEST_CASE("open_sequence: a damaged image is named") {
@@ -213,17 +205,17 @@ TEST_CASE("open_sequence: a damaged image is named") {
   const std::string path = temp / GENERATE(as<std::string>{}, "frame-000001.color.png", "frame-000001.depth.png");
   SECTION("cut short") {
     truncate_file(path, GENERATE(0.0, 0.01, 0.5, 0.99));
-    CHECK_THAT(open_error(temp.path()), Contains(path) && Contains("expected a complete PNG or JPEG image"));
+    CHECK_THAT(reading_error(temp.path()), Contains(path) && Contains("expected a complete PNG or JPEG image"));
   }
   SECTION("a byte changed in the middle") {
     std::string bytes = read_text(path);
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x55);
     write_text(path, bytes);
-    CHECK_THAT(open_error(temp.path()), Contains(path));
+    CHECK_THAT(reading_error(temp.path()), Contains(path));
   }
   SECTION("another kind of file") {
     write_text(path, "GIF89a and so on");
-    CHECK_THAT(open_error(temp.path()), Contains(path) && Contains("signature"));
+    CHECK_THAT(reading_error(temp.path()), Contains(path) && Contains("signature"));
   }
 }
 
@@ -232,13 +224,13 @@ TEST_CASE("open_sequence: depth must be 16 bits, and colour of the shape of its 
   write_small_recording(temp.path(), 1);
   SECTION("kind of pixel") {
     write_png(temp / "frame-000000.depth.png", Image<Rgb8>(kTestWidth, kTestHeight));
-    CHECK_THAT(open_error(temp.path()),
+    CHECK_THAT(reading_error(temp.path()),
                Contains("frame-000000.depth.png") && Contains("3 channel(s) of 8 bits") && Contains("one channel of 16 bits"));
   }
   SECTION("size") {
     fs::remove(temp / "colour-intrinsics.txt");  // with its own camera, colour may have any size
     write_png(temp / "frame-000000.color.png", Image<Rgb8>(kTestWidth, kTestHeight + 1));
-    CHECK_THAT(open_error(temp.path()), Contains("32x25") && Contains("32x24"));
+    CHECK_THAT(reading_error(temp.path()), Contains("32x25") && Contains("32x24"));
   }
 }
 
@@ -260,7 +252,7 @@ TEST_CASE("open_sequence: a bad pose is named, with the value") {
                                           {pose_text("1") + "5", "17 numbers"}}));
   write_text(temp / kPose, bad.text);
   CAPTURE(bad.text);
-  CHECK_THAT(open_error(temp.path()), Contains(temp / kPose) && Contains(bad.value) && Contains("expected"));
+  CHECK_THAT(reading_error(temp.path()), Contains(temp / kPose) && Contains(bad.value) && Contains("expected"));
 }
 
 TEST_CASE("open_sequence: a frame whose pose is lost or missing comes without one, and a warning counts them") {
@@ -295,7 +287,7 @@ TEST_CASE("open_sequence: bad intrinsics are named, with the value") {
                                           {"40 1 16 0 40 12 0 0 1", "40 1 16"},
                                           {"40 40 16", "3 numbers"}}));
   write_text(temp / name, bad.text);
-  CHECK_THAT(open_error(temp.path()), Contains(temp / name) && Contains(bad.value) && Contains("expected"));
+  CHECK_THAT(reading_error(temp.path()), Contains(temp / name) && Contains(bad.value) && Contains("expected"));
 }
 
 TEST_CASE("open_sequence: timestamps must fit the frames") {
@@ -303,18 +295,18 @@ TEST_CASE("open_sequence: timestamps must fit the frames") {
   write_small_recording(temp.path(), 2);
   const std::string text = GENERATE(as<std::string>{}, "0 1.0\n", "0 1.0\n1 1.1\n2 1.2\n", "0 1.0\n2 1.1\n", "0 1.0\n1\n", "0 1.0\n1 x\n");
   write_text(temp / "timestamps.txt", text);
-  CHECK_THAT(open_error(temp.path()), Contains(temp / "timestamps.txt") && Contains("expected"));
+  CHECK_THAT(reading_error(temp.path()), Contains(temp / "timestamps.txt") && Contains("expected"));
 }
 
 TEST_CASE("open_sequence: says what is wrong with a folder that holds no recording") {
   const TempFolder temp;
-  CHECK_THAT(open_error(temp.path()), Contains(temp.path()) && Contains("empty folder"));
-  CHECK_THAT(open_error(temp / "absent"), Contains(temp / "absent") && Contains("no such folder"));
+  CHECK_THAT(reading_error(temp.path()), Contains(temp.path()) && Contains("empty folder"));
+  CHECK_THAT(reading_error(temp / "absent"), Contains(temp / "absent") && Contains("no such folder"));
   write_text(temp / "note.txt", "");
-  CHECK_THAT(open_error(temp.path()), Contains("another kind") && Contains("7-Scenes") && Contains("TUM"));
-  CHECK_THAT(open_error(temp / "note.txt"), Contains("got a file"));
+  CHECK_THAT(reading_error(temp.path()), Contains("another kind") && Contains("7-Scenes") && Contains("TUM"));
+  CHECK_THAT(reading_error(temp / "note.txt"), Contains("got a file"));
   write_text(temp / "TrainSplit.txt", "sequence1\n");
-  CHECK_THAT(open_error(temp.path()), Contains("scene") && Contains("seq-01"));
+  CHECK_THAT(reading_error(temp.path()), Contains("scene") && Contains("seq-01"));
 }
 
 }  // namespace foothold

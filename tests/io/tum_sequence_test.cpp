@@ -33,13 +33,6 @@ void write_tum_recording(const std::string& folder) {
       "# truth\n0.96 0.96 0 0 0 0 0 1\n1.04 1.04 0 0 0 0 0 1\n1.08 1.08 0 0 0 0 0 1\n1.14 1.14 0 0 0 0 0 1\n1.22 1.22 0 0 0 0 0 1\n");
 }
 
-std::string open_error(const std::string& folder) {
-  return error_of([&] {
-    const auto sequence = open_sequence(folder, Context());
-    for (int i = 0; i < sequence->num_frames(); ++i) sequence->load(i);
-  });
-}
-
 std::vector<io::StampedFile> stamped(const std::vector<double>& times_s) {
   std::vector<io::StampedFile> files;
   for (const double time_s : times_s) files.push_back({time_s, std::to_string(time_s)});
@@ -118,21 +111,21 @@ TEST_CASE("open_sequence: each thing wrong with a TUM folder is named") {
   write_tum_recording(temp.path());
   const auto breaks = [&](const std::string& name, const std::string& text) {
     write_text(temp / name, text);
-    const std::string error = open_error(temp.path());
+    const std::string error = reading_error(temp.path());
     CHECK_THAT(error, Contains(temp / name));
     return error;
   };
   SECTION("missing list") {
     fs::remove(temp / "rgb.txt");
-    CHECK_THAT(open_error(temp.path()), Contains(temp / "rgb.txt") && Contains("no such file"));
+    CHECK_THAT(reading_error(temp.path()), Contains(temp / "rgb.txt") && Contains("no such file"));
   }
   SECTION("missing image") {
     fs::remove(temp / "rgb/1.png");
-    CHECK_THAT(open_error(temp.path()), Contains(temp / "rgb/1.png") && Contains("no such file"));
+    CHECK_THAT(reading_error(temp.path()), Contains(temp / "rgb/1.png") && Contains("no such file"));
   }
   SECTION("damaged image") {
     truncate_file(temp / "depth/2.png", 0.7);
-    CHECK_THAT(open_error(temp.path()), Contains(temp / "depth/2.png"));
+    CHECK_THAT(reading_error(temp.path()), Contains(temp / "depth/2.png"));
   }
   SECTION("empty list") { CHECK_THAT(breaks("depth.txt", "# nothing\n"), Contains("no image")); }
   SECTION("bad line") { CHECK_THAT(breaks("rgb.txt", "1.0 rgb/0.png\n1.1\n"), Contains("line 2") && Contains("1 words")); }

@@ -23,14 +23,14 @@ ForestExamples no_examples() {
 }
 
 /// A file with two scenes and a level.
-struct Fixture {
+struct CheckpointFixture {
   test::TempFolder folder;
   std::string path = folder / "checkpoint";
   ForestExamples examples = no_examples();
   ForestLevel level{{{2, -5}, 1}, {{0, 0}, 0}};
   std::string bytes;
 
-  Fixture() {
+  CheckpointFixture() {
     ForestCheckpoint checkpoint = ForestCheckpoint::create(path, kTraining);
     examples.scene_begins = {0};
     for (const std::size_t num : {4U, 2U}) {
@@ -46,8 +46,8 @@ struct Fixture {
     text << std::ifstream(path, std::ios::binary).rdbuf();
     bytes = text.str();
   }
-  Fixture(const Fixture&) = delete;
-  Fixture& operator=(const Fixture&) = delete;
+  CheckpointFixture(const CheckpointFixture&) = delete;
+  CheckpointFixture& operator=(const CheckpointFixture&) = delete;
 
   void write(const std::string& text) const { std::ofstream(path, std::ios::binary) << text; }
   std::string resume_error(std::uint64_t training = kTraining) const {
@@ -60,7 +60,7 @@ struct Fixture {
 }  // namespace
 
 TEST_CASE("ForestCheckpoint: reads back what it wrote, and goes on from there") {
-  const Fixture fixture;
+  const CheckpointFixture fixture;
   for (const std::size_t num_levels : {1U, 2U}) {
     ForestExamples read = no_examples();
     std::vector<ForestLevel> levels;
@@ -77,7 +77,7 @@ TEST_CASE("ForestCheckpoint: reads back what it wrote, and goes on from there") 
 }
 
 TEST_CASE("ForestCheckpoint: forgets the record that was being written, whichever byte was the last") {
-  const Fixture fixture;
+  const CheckpointFixture fixture;
   for (std::size_t num_bytes = checked_size(sizeof(kTraining)); num_bytes < fixture.bytes.size(); ++num_bytes) {
     fixture.write(fixture.bytes.substr(0, num_bytes));
     ForestExamples read = no_examples();
@@ -90,7 +90,7 @@ TEST_CASE("ForestCheckpoint: forgets the record that was being written, whicheve
 }
 
 TEST_CASE("ForestCheckpoint: never takes a damaged record for a whole one") {
-  const Fixture fixture;
+  const CheckpointFixture fixture;
   for (std::size_t place = checked_size(sizeof(kTraining)); place < fixture.bytes.size(); ++place) {
     std::string damaged = fixture.bytes;
     damaged[place] = static_cast<char>(damaged[place] ^ 0x10);
@@ -104,7 +104,7 @@ TEST_CASE("ForestCheckpoint: never takes a damaged record for a whole one") {
 }
 
 TEST_CASE("ForestCheckpoint: refuses files that are none, of another version, or of another training") {
-  const Fixture fixture;
+  const CheckpointFixture fixture;
   CHECK(test::contains(fixture.resume_error(kTraining + 1), "another training"));
   std::string other = fixture.bytes;
   other[8] = 9;

@@ -16,13 +16,13 @@ namespace {
 constexpr double kScoreTolerance = 1e-4;
 
 /// Examples with a few features of noise, in one scene unless stated.
-struct Fixture {
+struct SplitFixture {
   ForestExamples examples;
   std::vector<std::uint32_t> indices;
   std::vector<std::uint8_t> unparted;
   ForestTrainingSettings settings;
 
-  Fixture(std::size_t num_examples, std::size_t num_features, Random& random, bool paired = false) {
+  SplitFixture(std::size_t num_examples, std::size_t num_features, Random& random, bool paired = false) {
     examples.num_features = num_features;
     examples.paired = paired;
     examples.values.resize(num_examples * examples.row_size());
@@ -58,7 +58,7 @@ double naive_variance(const std::vector<Eigen::Vector3d>& points, double floor_m
 }
 
 /// The paper's information gain; naive.
-double naive_gain(const Fixture& fixture, const ForestSplit& split) {
+double naive_gain(const SplitFixture& fixture, const ForestSplit& split) {
   std::vector<Eigen::Vector3d> all;
   std::vector<Eigen::Vector3d> sides[2];
   for (const std::uint32_t example : fixture.indices) {
@@ -78,7 +78,7 @@ double naive_gain(const Fixture& fixture, const ForestSplit& split) {
 
 TEST_CASE("best_split: its score is the paper's information gain, and the largest of the candidates'") {
   Random random = test::test_random();
-  Fixture fixture(700, 6, random);
+  SplitFixture fixture(700, 6, random);
   for (std::size_t i = 0; i < 700; ++i) fixture.value(i, 2) = static_cast<std::int16_t>(300.0F * fixture.examples.points_world[i].y());
   const NodeVariance variance = node_variance(fixture.node(), fixture.settings);
   double largest = 0.0;
@@ -93,7 +93,7 @@ TEST_CASE("best_split: its score is the paper's information gain, and the larges
 
 TEST_CASE("best_split: finds the feature that separates two clusters purely") {
   Random random = test::test_random();
-  Fixture fixture(2000, 32, random);
+  SplitFixture fixture(2000, 32, random);
   for (std::size_t i = 0; i < 2000; ++i) {
     const bool right = random.below(2) == 1;
     fixture.value(i, 19) = static_cast<std::int16_t>(right ? 500 : 0);
@@ -110,7 +110,7 @@ TEST_CASE("best_split: finds the feature that separates two clusters purely") {
 
 TEST_CASE("best_split: moving a scene to other coordinates changes nothing") {
   Random random = test::test_random();
-  Fixture fixture(900, 16, random);
+  SplitFixture fixture(900, 16, random);
   fixture.examples.scene_begins = {0, 300, 900};
   const ScoredSplit before = fixture.best(64);
   const NodeVariance variance_before = node_variance(fixture.node(), fixture.settings);
@@ -124,7 +124,7 @@ TEST_CASE("best_split: moving a scene to other coordinates changes nothing") {
 
 TEST_CASE("best_split: keeps the smallest numbers of examples on each side") {
   Random random = test::test_random();
-  Fixture fixture(1000, 8, random);
+  SplitFixture fixture(1000, 8, random);
   fixture.settings.min_child_fraction = 0.4F;
   const ScoredSplit best = fixture.best(512);
   REQUIRE(best.score > 0.0);
@@ -139,21 +139,21 @@ TEST_CASE("best_split: keeps the smallest numbers of examples on each side") {
 
 TEST_CASE("best_split: equal examples cannot be split") {
   Random random = test::test_random();
-  Fixture fixture(50, 4, random);
+  SplitFixture fixture(50, 4, random);
   std::fill(fixture.examples.values.begin(), fixture.examples.values.end(), std::int16_t{3});
   CHECK(fixture.best(128).score == 0.0);
 }
 
 TEST_CASE("best_split: points in one place give no reason to split") {
   Random random = test::test_random();
-  Fixture fixture(50, 4, random);
+  SplitFixture fixture(50, 4, random);
   std::fill(fixture.examples.points_world.begin(), fixture.examples.points_world.end(), Eigen::Vector3f(1.0F, 2.0F, 3.0F));
   CHECK(fixture.best(128).score < kScoreTolerance);
 }
 
 TEST_CASE("best_split: asked for agreement, takes the feature on which two views of a point agree, split in the middle") {
   Random random = test::test_random();
-  Fixture fixture(3000, 10, random, true);
+  SplitFixture fixture(3000, 10, random, true);
   fixture.settings.variance_weight = 0.0F;
   fixture.settings.agreement_weight = 1.0F;
   for (std::size_t i = 0; i < 3000; ++i) fixture.value(i, 10 + 6) = fixture.value(i, 6);

@@ -14,8 +14,7 @@
 namespace foothold::test {
 namespace {
 
-constexpr float kHalfMillimetre_m = 0.0005F;  ///< the camera sends whole millimetres, and the pattern consists of them
-constexpr float kFocalError_px = 0.01F;       ///< the field of view passes through a float in radians
+constexpr float kFocalError_px = 0.01F;  ///< the field of view passes through a float in radians
 
 TEST_CASE("list_openni_devices: names the cameras and their modes in order") {
   const VirtualRig rig{{"", "pattern:160x120|pattern:320x240"}};

@@ -14,7 +14,6 @@ namespace {
 
 using Catch::Matchers::Contains;
 
-constexpr float kHalfMillimetre_m = 0.0005F;
 constexpr double kGenerous_ms = 5000.0;  ///< for a read whose time limit is a fifth of a second, on a busy machine
 
 TEST_CASE("OpenNISource: survives being unplugged and plugged in again") {

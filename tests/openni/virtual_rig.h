@@ -11,6 +11,9 @@
 
 namespace foothold::test {
 
+/// The camera sends whole millimetres, and its pattern consists of them.
+constexpr float kHalfMillimetre_m = 0.0005F;
+
 /// Plugs virtual cameras in for as long as it lives. Make it before any source: the driver reads its script when OpenNI2 is initialised.
 class VirtualRig {
  public:

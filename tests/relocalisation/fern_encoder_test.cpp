@@ -17,7 +17,7 @@ namespace {
 using test::random_relief;
 
 /// Single precision over sums of a few hundred terms.
-constexpr float kTolerance = 1e-4F;
+constexpr float kPixelTolerance = 1e-4F;
 
 TEST_CASE("halve_depth: is the mean of the valid pixels among four") {
   Random random = test::test_random();
@@ -39,7 +39,7 @@ TEST_CASE("halve_depth: is the mean of the valid pixels among four") {
         if (d > 0.0F) sum += d, ++count;
       }
       const double expected = count == 0 ? 0.0 : sum / count;
-      REQUIRE(half[static_cast<std::size_t>(v * 6 + u)] == Approx(expected).margin(kTolerance));
+      REQUIRE(half[static_cast<std::size_t>(v * 6 + u)] == Approx(expected).margin(kPixelTolerance));
     }
   }
 }
@@ -66,7 +66,7 @@ TEST_CASE("smooth_depth: is a Gaussian mean of the valid pixels in its window") 
           weights += weight;
         }
       }
-      REQUIRE(smoothed[static_cast<std::size_t>(v * kWidth + u)] == Approx(weights > 0.0 ? sum / weights : 0.0).margin(kTolerance));
+      REQUIRE(smoothed[static_cast<std::size_t>(v * kWidth + u)] == Approx(weights > 0.0 ? sum / weights : 0.0).margin(kPixelTolerance));
     }
   }
 }

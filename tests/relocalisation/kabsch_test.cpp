@@ -12,7 +12,7 @@ namespace foothold {
 namespace {
 
 /// Single precision on coordinates of a few metres.
-constexpr double kTolerance = 2e-5;
+constexpr double kKabschTolerance = 2e-5;
 
 Eigen::Vector3f random_point(Random& random) {
   return {random.uniform(-3.0F, 3.0F), random.uniform(-3.0F, 3.0F), random.uniform(-3.0F, 3.0F)};
@@ -56,8 +56,8 @@ TEST_CASE("fit_rigid_to_triple: recovers a transform from exact pairs") {
     const Eigen::Vector3f target[3] = {truth * source[0], truth * source[1], truth * source[2]};
     SE3 found;
     REQUIRE(fit_rigid_to_triple(source, target, found));
-    REQUIRE((found.rotation - truth.rotation).norm() < kTolerance);
-    REQUIRE((found.translation - truth.translation).norm() < 5 * kTolerance);
+    REQUIRE((found.rotation - truth.rotation).norm() < kKabschTolerance);
+    REQUIRE((found.translation - truth.translation).norm() < 5 * kKabschTolerance);
     REQUIRE(is_rigid(found, 1e-5F));
   }
 }
@@ -76,8 +76,8 @@ TEST_CASE("fit_rigid_to_triple: is Kabsch's solution for noisy triples") {
     Eigen::Matrix3d rotation;
     Eigen::Vector3d translation;
     kabsch(source, target, rotation, translation);
-    REQUIRE((found.rotation.cast<double>() - rotation).norm() < 5 * kTolerance);
-    REQUIRE((found.translation.cast<double>() - translation).norm() < 20 * kTolerance);
+    REQUIRE((found.rotation.cast<double>() - rotation).norm() < 5 * kKabschTolerance);
+    REQUIRE((found.translation.cast<double>() - translation).norm() < 20 * kKabschTolerance);
     ++num_compared;
   }
   REQUIRE(num_compared > 1000);

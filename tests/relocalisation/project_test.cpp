@@ -8,15 +8,14 @@
 
 #include "foothold/base/exec/cpu_executor.h"
 #include "pose/rejoin_kernels.h"
+#include "relocalisation/averaged_camera.h"
 #include "support/catch.h"
 #include "support/random_seed.h"
 
 namespace foothold {
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
-constexpr Intrinsics kCamera{146.0F, 146.0F, 80.0F, 60.0F};
+using namespace test;
 
 /// The depth at a pixel, from a camera that looks into a corner: two walls and a floor.
 float corner_depth_m(int u, int v) {

@@ -7,16 +7,16 @@
 #include <vector>
 
 #include "foothold/base/exec/cpu_executor.h"
+#include "relocalisation/averaged_camera.h"
 #include "support/catch.h"
 #include "support/random_seed.h"
 
 namespace foothold {
 namespace {
 
-constexpr int kWidth = 160;
-constexpr int kHeight = 120;
+using namespace test;
+
 constexpr float kWallM = 2.0F;
-constexpr Intrinsics kCamera{146.0F, 146.0F, 80.0F, 60.0F};
 
 /// A grey wall right in front of the camera.
 std::vector<FeaturePixel> wall() {
@@ -26,9 +26,11 @@ std::vector<FeaturePixel> wall() {
   return std::vector<FeaturePixel>(static_cast<std::size_t>(kWidth * kHeight), pixel);
 }
 
-RememberedPoint point_at(const Eigen::Vector3f& p, std::uint8_t grey = 100) { return {{p.x(), p.y(), p.z()}, {grey, grey, grey}, 1}; }
+RememberedPoint remembered_grey(const Eigen::Vector3f& p, std::uint8_t grey = 100) {
+  return {{p.x(), p.y(), p.z()}, {grey, grey, grey}, 1};
+}
 
-SceneEvidence judge(const std::vector<FeaturePixel>& pixels, const std::vector<RememberedPoint>& points, SE3 scene_from_camera) {
+SceneEvidence evidence_of(const std::vector<FeaturePixel>& pixels, const std::vector<RememberedPoint>& points, SE3 scene_from_camera) {
   const FeatureImageView image{pixels.data(), kWidth, kHeight, 1.0F};
   std::uint64_t order = 0;
   SceneEvidence evidence{-1.0F, -1.0F, -1.0F};
@@ -44,18 +46,18 @@ TEST_CASE("JudgeCandidates: counts points seen through, at the surface, hidden a
     RememberedPoint point;
     float in_view, contradicted, alike;
   } cases[] = {
-      {"on the wall", point_at({0.3F, 0.2F, kWallM}), 1, 0, 1},
-      {"on the wall, another colour", point_at({0.3F, 0.2F, kWallM}, 180), 1, 0, 0},
-      {"in front of the wall", point_at({0.3F, 0.2F, kWallM - 0.3F}), 1, 1, 0},
-      {"behind the wall", point_at({0.3F, 0.2F, kWallM + 0.3F}), 1, 0, 0},
-      {"within the sensor's noise", point_at({0.3F, 0.2F, kWallM - 0.03F}), 1, 0, 1},
-      {"beside the image", point_at({2.0F, 0.0F, kWallM}), 0, 0, 0},
-      {"behind the camera", point_at({0.0F, 0.0F, -kWallM}), 0, 0, 0},
+      {"on the wall", remembered_grey({0.3F, 0.2F, kWallM}), 1, 0, 1},
+      {"on the wall, another colour", remembered_grey({0.3F, 0.2F, kWallM}, 180), 1, 0, 0},
+      {"in front of the wall", remembered_grey({0.3F, 0.2F, kWallM - 0.3F}), 1, 1, 0},
+      {"behind the wall", remembered_grey({0.3F, 0.2F, kWallM + 0.3F}), 1, 0, 0},
+      {"within the sensor's noise", remembered_grey({0.3F, 0.2F, kWallM - 0.03F}), 1, 0, 1},
+      {"beside the image", remembered_grey({2.0F, 0.0F, kWallM}), 0, 0, 0},
+      {"behind the camera", remembered_grey({0.0F, 0.0F, -kWallM}), 0, 0, 0},
       {"nothing", RememberedPoint{}, 0, 0, 0},
   };
   for (const auto& c : cases) {
     INFO(c.what);
-    const SceneEvidence evidence = judge(wall(), {c.point}, SE3{});
+    const SceneEvidence evidence = evidence_of(wall(), {c.point}, SE3{});
     REQUIRE(evidence.num_in_view == c.in_view);
     REQUIRE(evidence.num_contradicted == c.contradicted);
     REQUIRE(evidence.num_alike == c.alike);
@@ -64,7 +66,7 @@ TEST_CASE("JudgeCandidates: counts points seen through, at the surface, hidden a
 
 TEST_CASE("JudgeCandidates: pixels without depth prove nothing") {
   const SceneEvidence evidence =
-      judge(std::vector<FeaturePixel>(static_cast<std::size_t>(kWidth * kHeight)), {point_at({0.0F, 0.0F, 1.0F})}, SE3{});
+      evidence_of(std::vector<FeaturePixel>(static_cast<std::size_t>(kWidth * kHeight)), {remembered_grey({0.0F, 0.0F, 1.0F})}, SE3{});
   REQUIRE(evidence.num_in_view == 0.0F);
 }
 
@@ -77,16 +79,16 @@ TEST_CASE("JudgeCandidates: depends on where the camera is, not on where the sce
   constexpr int kNumPoints = 500;
   for (int i = 0; i < kNumPoints; ++i) {
     const Eigen::Vector3f p = scene_from_camera * Eigen::Vector3f(random.uniform(-0.8F, 0.8F), random.uniform(-0.6F, 0.6F), kWallM);
-    points.push_back(point_at(p));
+    points.push_back(remembered_grey(p));
   }
-  const SceneEvidence right = judge(wall(), points, scene_from_camera);
+  const SceneEvidence right = evidence_of(wall(), points, scene_from_camera);
   REQUIRE(right.num_in_view == kNumPoints);
   REQUIRE(right.num_contradicted == 0.0F);
   REQUIRE(right.num_alike == kNumPoints);
   // Half a metre further back, the camera would see the wall where nothing is remembered, through what is remembered.
   SE3 wrong = scene_from_camera;
   wrong.translation += wrong.rotation * Eigen::Vector3f(0.0F, 0.0F, 0.5F);
-  const SceneEvidence off = judge(wall(), points, wrong);
+  const SceneEvidence off = evidence_of(wall(), points, wrong);
   REQUIRE(off.num_alike == 0.0F);
   REQUIRE(off.num_contradicted == off.num_in_view);
   REQUIRE(off.contradicted_fraction() > 0.9F);
@@ -107,7 +109,7 @@ TEST_CASE("MakeEvidenceKey: believed candidates first, equal ones as they were, 
 
 TEST_CASE("DrawRememberedPoint: draws what leaves hold, and nothing from empty ones") {
   LeafReservoirs reservoirs(Context{}, 64, ReservoirSettings{}, 1);
-  RememberedPoint point = point_at({1.0F, 2.0F, 3.0F});
+  RememberedPoint point = remembered_grey({1.0F, 2.0F, 3.0F});
   const DrawRememberedPoint draw{reservoirs.view(), 7, &point};
   draw(0);
   REQUIRE(point.valid == 0);

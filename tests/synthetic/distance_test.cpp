@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3f;
 using test::primitive;
 
-constexpr float kTolerance_m = 1e-5F;
+constexpr float kDistanceTolerance_m = 1e-5F;
 
 float distance(Shape shape, const Vector3f& half_size, const Vector3f& point) {
   return distance_to_surface(primitive(shape, Vector3f::Zero(), half_size), point);
@@ -20,27 +20,27 @@ float distance(Shape shape, const Vector3f& half_size, const Vector3f& point) {
 
 TEST_CASE("distance_to_surface: a box from its faces, edges, corners and inside") {
   const Vector3f half(1.0F, 2.0F, 3.0F);
-  REQUIRE(distance(Shape::kBox, half, {1.5F, 0.0F, 0.0F}) == Approx(0.5F).margin(kTolerance_m));
-  REQUIRE(distance(Shape::kBox, half, {4.0F, 6.0F, 0.0F}) == Approx(5.0F).margin(kTolerance_m));
-  REQUIRE(distance(Shape::kBox, half, {2.0F, 4.0F, 5.0F}) == Approx(3.0F).margin(kTolerance_m));
-  REQUIRE(distance(Shape::kBox, half, {0.2F, 0.0F, 0.0F}) == Approx(0.8F).margin(kTolerance_m));
+  REQUIRE(distance(Shape::kBox, half, {1.5F, 0.0F, 0.0F}) == Approx(0.5F).margin(kDistanceTolerance_m));
+  REQUIRE(distance(Shape::kBox, half, {4.0F, 6.0F, 0.0F}) == Approx(5.0F).margin(kDistanceTolerance_m));
+  REQUIRE(distance(Shape::kBox, half, {2.0F, 4.0F, 5.0F}) == Approx(3.0F).margin(kDistanceTolerance_m));
+  REQUIRE(distance(Shape::kBox, half, {0.2F, 0.0F, 0.0F}) == Approx(0.8F).margin(kDistanceTolerance_m));
 }
 
 TEST_CASE("distance_to_surface: a rectangle from both sides and beyond its rim") {
   const Vector3f half(1.0F, 2.0F, 0.0F);
-  REQUIRE(distance(Shape::kRectangle, half, {0.5F, -1.0F, 0.3F}) == Approx(0.3F).margin(kTolerance_m));
-  REQUIRE(distance(Shape::kRectangle, half, {0.5F, -1.0F, -0.3F}) == Approx(0.3F).margin(kTolerance_m));
-  REQUIRE(distance(Shape::kRectangle, half, {2.0F, 4.0F, 2.0F}) == Approx(3.0F).margin(kTolerance_m));
+  REQUIRE(distance(Shape::kRectangle, half, {0.5F, -1.0F, 0.3F}) == Approx(0.3F).margin(kDistanceTolerance_m));
+  REQUIRE(distance(Shape::kRectangle, half, {0.5F, -1.0F, -0.3F}) == Approx(0.3F).margin(kDistanceTolerance_m));
+  REQUIRE(distance(Shape::kRectangle, half, {2.0F, 4.0F, 2.0F}) == Approx(3.0F).margin(kDistanceTolerance_m));
 }
 
 TEST_CASE("distance_to_surface: a sphere and a cylinder on both sides") {
-  REQUIRE(distance(Shape::kSphere, Vector3f::Constant(0.5F), {0.0F, 0.0F, 2.0F}) == Approx(1.5F).margin(kTolerance_m));
-  REQUIRE(distance(Shape::kSphere, Vector3f::Constant(0.5F), {0.1F, 0.0F, 0.0F}) == Approx(0.4F).margin(kTolerance_m));
+  REQUIRE(distance(Shape::kSphere, Vector3f::Constant(0.5F), {0.0F, 0.0F, 2.0F}) == Approx(1.5F).margin(kDistanceTolerance_m));
+  REQUIRE(distance(Shape::kSphere, Vector3f::Constant(0.5F), {0.1F, 0.0F, 0.0F}) == Approx(0.4F).margin(kDistanceTolerance_m));
   const Vector3f half(0.5F, 0.5F, 1.0F);
-  REQUIRE(distance(Shape::kCylinder, half, {2.0F, 0.0F, 0.5F}) == Approx(1.5F).margin(kTolerance_m));
-  REQUIRE(distance(Shape::kCylinder, half, {0.1F, 0.0F, -3.0F}) == Approx(2.0F).margin(kTolerance_m));
-  REQUIRE(distance(Shape::kCylinder, half, {3.5F, 0.0F, 5.0F}) == Approx(5.0F).margin(kTolerance_m));
-  REQUIRE(distance(Shape::kCylinder, half, {0.0F, 0.0F, 0.9F}) == Approx(0.1F).margin(kTolerance_m));
+  REQUIRE(distance(Shape::kCylinder, half, {2.0F, 0.0F, 0.5F}) == Approx(1.5F).margin(kDistanceTolerance_m));
+  REQUIRE(distance(Shape::kCylinder, half, {0.1F, 0.0F, -3.0F}) == Approx(2.0F).margin(kDistanceTolerance_m));
+  REQUIRE(distance(Shape::kCylinder, half, {3.5F, 0.0F, 5.0F}) == Approx(5.0F).margin(kDistanceTolerance_m));
+  REQUIRE(distance(Shape::kCylinder, half, {0.0F, 0.0F, 0.9F}) == Approx(0.1F).margin(kDistanceTolerance_m));
 }
 
 TEST_CASE("distance_to_surface: never larger than the distance to any point of the surface, and reached by one") {
@@ -66,7 +66,7 @@ TEST_CASE("distance_to_surface: never larger than the distance to any point of t
         }
       }
     }
-    REQUIRE(actual <= sampled + kTolerance_m);
+    REQUIRE(actual <= sampled + kDistanceTolerance_m);
     REQUIRE(actual >= sampled - 0.01F);
   }
 }
@@ -74,8 +74,8 @@ TEST_CASE("distance_to_surface: never larger than the distance to any point of t
 TEST_CASE("distance_to_surface: a room's is that of its nearest primitive, and an empty room has none") {
   const Room room = test::bare_room(
       {primitive(Shape::kSphere, {0.0F, 0.0F, 0.0F}, Vector3f::Ones()), primitive(Shape::kSphere, {5.0F, 0.0F, 0.0F}, Vector3f::Ones())});
-  REQUIRE(distance_to_surface(room, {3.0F, 0.0F, 0.0F}) == Approx(1.0F).margin(kTolerance_m));
-  REQUIRE(distance_to_surface(room, {1.5F, 0.0F, 0.0F}) == Approx(0.5F).margin(kTolerance_m));
+  REQUIRE(distance_to_surface(room, {3.0F, 0.0F, 0.0F}) == Approx(1.0F).margin(kDistanceTolerance_m));
+  REQUIRE(distance_to_surface(room, {1.5F, 0.0F, 0.0F}) == Approx(0.5F).margin(kDistanceTolerance_m));
   REQUIRE(std::isinf(distance_to_surface(test::bare_room({}), Vector3f::Zero())));
 }
 

@@ -21,7 +21,7 @@ using test::kWidth;
 using test::primitive;
 
 /// Single precision over coordinates of a few metres; grazing hits amplify it.
-constexpr float kTolerance_m = 2e-5F;
+constexpr float kDepthTolerance_m = 2e-5F;
 
 /// The camera at the origin, looking along z.
 RenderedView view_of(const Room& room) { return render(room, test::small_camera(), SE3{}, kWidth, kHeight); }
@@ -41,7 +41,7 @@ TEST_CASE("render: a tilted plane follows its equation") {
   for (int v = 0; v < kHeight; v += 7) {
     for (int u = 0; u < kWidth; u += 7) {
       const Vector3f ray = test::small_camera().back_project(static_cast<float>(u), static_cast<float>(v), 1.0F);
-      REQUIRE(view.depth(u, v) == Approx(3.0F * normal.z() / normal.dot(ray)).margin(kTolerance_m));
+      REQUIRE(view.depth(u, v) == Approx(3.0F * normal.z() / normal.dot(ray)).margin(kDepthTolerance_m));
     }
   }
 }
@@ -62,18 +62,18 @@ TEST_CASE("render: a sphere ahead is nearest in its middle and round at its rim"
       if (off_axis > rim) continue;
       const float a = ray.squaredNorm();
       const float root = std::sqrt(kDistance * kDistance - a * (kDistance * kDistance - kRadius * kRadius));
-      REQUIRE(view.depth(u, v) == Approx((kDistance - root) / a).margin(kTolerance_m));
+      REQUIRE(view.depth(u, v) == Approx((kDistance - root) / a).margin(kDepthTolerance_m));
     }
   }
 }
 
 TEST_CASE("render: boxes and cylinders show their near faces") {
   const Room boxes = test::bare_room({primitive(Shape::kBox, {0.0F, 0.0F, 2.0F}, {0.3F, 0.2F, 0.25F})});
-  REQUIRE(view_of(boxes).depth(80, 60) == Approx(1.75F).margin(kTolerance_m));
+  REQUIRE(view_of(boxes).depth(80, 60) == Approx(1.75F).margin(kDepthTolerance_m));
   REQUIRE(view_of(boxes).depth(2, 2) == 0.0F);
   // A cylinder seen end on, then from the side.
   Primitive cylinder = primitive(Shape::kCylinder, {0.0F, 0.0F, 2.0F}, {0.2F, 0.2F, 0.4F});
-  REQUIRE(view_of(test::bare_room({cylinder})).depth(80, 60) == Approx(1.6F).margin(kTolerance_m));
+  REQUIRE(view_of(test::bare_room({cylinder})).depth(80, 60) == Approx(1.6F).margin(kDepthTolerance_m));
   cylinder.world_from_local.rotation = Eigen::AngleAxisf(1.5707964F, Vector3f::UnitX()).toRotationMatrix();
   REQUIRE(view_of(test::bare_room({cylinder})).depth(80, 60) == Approx(1.8F).margin(1e-4));
 }
@@ -84,7 +84,7 @@ TEST_CASE("render: the nearest of several surfaces wins") {
                                      primitive(Shape::kRectangle, {0.0F, 0.0F, 5.0F}, {9.0F, 9.0F, 0.0F})});
   const RenderedView view = view_of(room);
   REQUIRE(view.primitive(80, 60) == 1);
-  REQUIRE(view.depth(80, 60) == Approx(1.9F).margin(kTolerance_m));
+  REQUIRE(view.depth(80, 60) == Approx(1.9F).margin(kDepthTolerance_m));
   REQUIRE(view.primitive(5, 5) == 0);
 }
 
