@@ -17,11 +17,15 @@ namespace foothold::fuzz {
 /// The input as text.
 inline std::string text_of(const std::uint8_t* data, std::size_t size) { return {reinterpret_cast<const char*>(data), size}; }
 
+/// Inputs that attempt() saw accepted so far.
+inline int num_accepted = 0;
+
 /// Runs a parser, which may complain about its input only through the library's exceptions.
 template <class Parse>
 void attempt(Parse&& parse) {
   try {
     parse();
+    ++num_accepted;
   } catch (const Error&) {
   }
 }
