@@ -116,7 +116,6 @@ TEST_CASE("ForestRelocaliser: goes on after an allocation that failed, and what 
   };
   fail_every_allocation([&] { relocaliser.train(frame.view(), *frame.world_from_camera); }, check);
   fail_every_allocation([&] { relocaliser.relocalise(frame.view()); }, check);
-  fail_every_allocation([&] { relocaliser.update(); }, check);
 }
 
 TEST_CASE("KeyframeRelocaliser: load and train change nothing whichever allocation fails") {
@@ -156,6 +155,27 @@ TEST_CASE("Reconstruction::load: the former scene stays whichever allocation fai
       },
       [&] { REQUIRE((parts_of(reconstruction) == former)); });
   CHECK((parts_of(reconstruction) != former));
+}
+
+TEST_CASE("FusionPipeline::load: the former map stays whichever allocation fails") {
+  const auto pipeline_after = [](int num_frames) {
+    FusionPipeline pipeline(fuzz::one_thread(), fuzz::small_fusion_settings(), nullptr);
+    pipeline.start_at(*fuzz::small_frame(0).world_from_camera);
+    for (int i = 0; i < num_frames; ++i) pipeline.process(fuzz::small_frame(i).view());
+    return pipeline;
+  };
+  const std::string loaded = saved_bytes(pipeline_after(2));
+  FusionPipeline pipeline = pipeline_after(1);
+  const std::string former = saved_bytes(pipeline);
+  std::istringstream stream;
+  fail_every_allocation(
+      [&] {
+        stream.clear();
+        stream.str(loaded);
+        pipeline.load(stream);
+      },
+      [&] { REQUIRE((saved_bytes(pipeline) == former)); });
+  CHECK((saved_bytes(pipeline) == loaded));
 }
 
 TEST_CASE("load_settings: none is changed whichever allocation fails") {

@@ -104,7 +104,7 @@ TEST_CASE("saves: killed at any moment, the old state or the new one is there, a
       save_and_be_killed(save, after);
       check_what_the_killed_left(contents_of(temp.path()), states);
       if (!save_case.is_one_file) {
-        const int num_frames = open_sequence(temp / "recording")->num_frames();
+        const int num_frames = open_sequence(temp / "recording", Context())->num_frames();
         CHECK((num_frames == 1 || num_frames == 2));
       }
       save();

@@ -79,7 +79,7 @@ void SevenScenesWriter::write(const RgbdFrame& frame) {
   std::snprintf(stem.data(), stem.size(), "frame-%06d", num_frames());
   try {
     write_files(path(stem.data()), frame);
-  } catch (const FileError&) {
+  } catch (...) {  // memory that ran out, too
     // What was recorded before, say until the disk was full, shall stay a valid recording.
     std::error_code ignored;
     for (const char* suffix : {".color.png", ".depth.png", ".pose.txt"}) std::filesystem::remove(path(stem.data()) + suffix, ignored);

@@ -189,10 +189,10 @@ std::unique_ptr<Reconstruction::Scene> Reconstruction::new_scene() const {
 template <class Read>
 std::vector<SettingText> Reconstruction::replace_scene(const std::string& name, Read&& read) {
   std::unique_ptr<Scene> scene = new_scene();
-  const SceneDescription loaded =
+  SceneDescription loaded =
       read(scene->template parts<LoadedPart>(), [&](const SceneDescription& description) { check_settings(name, description); });
-  scene_ = std::move(scene);
-  return loaded.provenance;
+  scene_ = std::move(scene);  // nothing behind it may throw
+  return std::move(loaded.provenance);
 }
 
 std::vector<SettingText> Reconstruction::load(const std::string& path) {

@@ -124,8 +124,13 @@ void KeyframeRelocaliser::train(const Frame& frame, const SE3& world_from_camera
   for (std::size_t i = 0; i < num_keyframes(); ++i) {
     if (s.dissimilarity(i) < s.settings.harvest_dissimilarity) return;
   }
-  s.codes.insert(s.codes.end(), s.frame_code.begin(), s.frame_code.end());
   s.world_from_keyframes.push_back(world_from_camera);
+  try {
+    s.codes.insert(s.codes.end(), s.frame_code.begin(), s.frame_code.end());
+  } catch (...) {  // out of memory: no pose without a code
+    s.world_from_keyframes.pop_back();
+    throw;
+  }
 }
 
 std::vector<PoseEstimate> KeyframeRelocaliser::relocalise(const Frame& frame) {
