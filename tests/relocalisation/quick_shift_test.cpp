@@ -6,6 +6,8 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -207,6 +209,27 @@ TEST_CASE("LeafModes: the same whatever the number of threads") {
     if (num_threads == 1) expected = bytes;
     REQUIRE((bytes == expected));
   }
+}
+
+TEST_CASE("LeafModes: a mode whose numbers no points have is refused") {
+  Random random = test::test_random();
+  Leaves leaves({blobs(random, 1, 20)}, ClusteringSettings{});
+  leaves.update();
+  const Mode good = leaves.modes_of(0).at(0);
+  const auto load = [&](const std::function<void(Mode&)>& spoil) {
+    const LeafModesView view = leaves.modes.view();
+    view.modes.at(0, 0) = good;
+    spoil(view.modes.at(0, 0));
+    const std::string bytes = test::checked_bytes([&](CheckedWriter& writer) { leaves.modes.save(writer); });
+    LeafModes loaded(leaves.context, 1, ClusteringSettings{});
+    test::read_checked(bytes, [&](CheckedReader& reader) { loaded.load(reader); });
+  };
+  REQUIRE_NOTHROW(load([](Mode&) {}));
+  constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+  REQUIRE_THROWS_AS(load([](Mode& mode) { mode.mean_m[1] = kNaN; }), FileError);
+  REQUIRE_THROWS_AS(load([](Mode& mode) { mode.mean_m[2] = 40.0F; }), FileError);
+  REQUIRE_THROWS_AS(load([](Mode& mode) { mode.precision[1] = -kNaN; }), FileError);
+  REQUIRE_THROWS_AS(load([](Mode& mode) { mode.precision[3] = 0.0F; }), FileError);
 }
 
 }  // namespace

@@ -41,13 +41,13 @@ void FusionPipeline::load(std::istream& stream) {
   if (started == 0 && volume.num_blocks() != 0) {
     reader.refuse("has not begun, but has a map of " + std::to_string(volume.num_blocks()) + " blocks");
   }
+  policy_.reset();  // may run out of memory; nothing behind it can
   volume_ = std::move(volume);
   rendering_ = SurfaceMap(context_.memory());
   world_from_camera_ = world_from_camera;
   started_ = started != 0;
   loss_forced_ = false;
   candidates_.clear();
-  policy_.reset();
   if (started_) policy_.update(TrackingQuality::kFailed, RelocalisationOutcome::kNothing);
 }
 

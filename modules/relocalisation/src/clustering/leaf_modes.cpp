@@ -3,6 +3,8 @@
 #include "clustering/leaf_modes.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <numeric>
 
 #include "clustering/leaf_modes_kernels.h"
@@ -22,6 +24,16 @@ std::uint32_t scattering_stride(int num_leaves) {
   std::uint32_t stride = 7919;
   while (std::gcd(stride, static_cast<std::uint32_t>(num_leaves)) != 1) ++stride;
   return stride;
+}
+
+/// True unless a file made it up: its mean is one of points in whole millimetres of 16 bits, and its precision that of a Gaussian.
+bool is_plausible(const Mode& mode) {
+  constexpr float kReachM = 33.0F;
+  const auto is_within_reach = [](float mean_m) { return std::abs(mean_m) < kReachM; };
+  const auto is_finite = [](float value) { return std::isfinite(value); };
+  return std::all_of(std::begin(mode.mean_m), std::end(mode.mean_m), is_within_reach) &&
+         std::all_of(std::begin(mode.precision), std::end(mode.precision), is_finite) && mode.precision[0] > 0.0F &&
+         mode.precision[3] > 0.0F && mode.precision[5] > 0.0F;
 }
 
 }  // namespace
@@ -106,6 +118,11 @@ void LeafModes::load(CheckedReader& reader) {
       if (taken[static_cast<std::size_t>(block)]) reader.refuse("gives mode block " + std::to_string(block) + " to two leaves");
       taken[static_cast<std::size_t>(block)] = true;
       ++num_taken;
+    }
+    for (std::uint32_t k = 0; k < num_modes[leaf]; ++k) {
+      const auto block = static_cast<std::size_t>(blocks[leaf * static_cast<std::uint64_t>(max_blocks) + k / kModeBlockSize]);
+      if (!is_plausible(pool[block * kModeBlockSize + k % kModeBlockSize]))
+        reader.refuse("gives leaf " + std::to_string(leaf) + " a mode that no points have");
     }
   }
   if (num_taken * kModeBlockSize != static_cast<std::int64_t>(pool.size())) {

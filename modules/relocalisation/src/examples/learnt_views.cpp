@@ -21,6 +21,7 @@ constexpr std::size_t kFewestSlots = 1024;
 constexpr std::uint64_t kMostSlots = std::uint64_t{1} << 30U;  ///< of a place, 8 GiB
 constexpr std::uint64_t kMostEmptySlots = std::uint64_t{1} << 22U;
 constexpr std::uint64_t kMostSlotsPerEntry = 16;
+constexpr std::uint64_t kSmallTable = std::uint64_t{1} << 14U;  ///< slots of a table that is loaded however empty it is, 128 kB
 }  // namespace
 
 LearntViews::LearntViews(const Memory& memory)
@@ -95,11 +96,14 @@ void LearntViews::load(const Context& context, CheckedReader& reader) {
     if (entries[i] == kEmptySlot || (i > 0 && entries[i] >> kCountBits <= entries[i - 1] >> kCountBits))
       reader.refuse("has learnt views that are not in order");
   }
+  // A scene may have many places: one that is nearly empty gets a smaller table, which grows when it must.
+  std::uint64_t num_loaded_slots = num_slots;
+  while (num_loaded_slots > kSmallTable && num_loaded_slots > kMostSlotsPerEntry * entries.size()) num_loaded_slots /= 2;
   LearntViews loaded(slots_.memory());
-  if (num_slots > 0) loaded.set_num_slots(context, num_slots);
+  if (num_loaded_slots > 0) loaded.set_num_slots(context, num_loaded_slots);
   const Array<std::uint64_t> from(slots_.memory(), Span<const std::uint64_t>(entries));
   dispatch(context, [&](auto on) {
-    ExampleAlgorithms<typename decltype(on)::Executor>::rehash(context, from, ViewTable{loaded.slots_.data(), num_slots - 1});
+    ExampleAlgorithms<typename decltype(on)::Executor>::rehash(context, from, ViewTable{loaded.slots_.data(), num_loaded_slots - 1});
   });
   context.synchronise();
   loaded.num_entries_ = entries.size();
