@@ -15,6 +15,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     write_forest(written, forest);
     fuzz::require(read_forest(written, "a.forest").fingerprint() == forest.fingerprint());
     ForestRelocaliser relocaliser(fuzz::one_thread(), forest, fuzz::small_forest_settings());
+    const RgbdFrame frame = fuzz::small_frame(0);
+    relocaliser.train(frame.view(), *frame.world_from_camera);
     fuzz::use(relocaliser);
   });
   return 0;

@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (int i = 0; i < std::min(kMostFrames, sequence->num_frames()); ++i) {
       const RgbdFrame frame = sequence->load(i);
       fuzz::require(describe_frame_error(frame.view()).empty());
-      if (frame.world_from_camera.has_value()) fuzz::require(is_rigid(*frame.world_from_camera, 1e-3F));
+      if (frame.world_from_camera.has_value()) fuzz::require(is_rigid(*frame.world_from_camera));
       writer.write(frame);
     }
     writer.finish();

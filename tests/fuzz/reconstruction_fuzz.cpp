@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     reconstruction.load(stream, "a.scene");
     for (const int index : {0, 1}) {
       const FusionFrameResult result = reconstruction.process(fuzz::small_frame(index).view());
-      if (result.world_from_camera.has_value()) fuzz::require(is_rigid(*result.world_from_camera, 1e-3F));
+      if (result.world_from_camera.has_value()) fuzz::require(is_rigid(*result.world_from_camera));
     }
     std::stringstream saved;
     reconstruction.save(saved);

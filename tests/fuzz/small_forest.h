@@ -23,8 +23,8 @@ inline ForestRelocaliserSettings small_forest_settings() {
   settings.clustering.max_modes = 2;
   settings.pose.pool_size = 500;
   settings.pose.num_hypotheses = 16;
-  settings.pose.num_candidates = 2;
-  settings.num_rolls = 2;
+  settings.pose.num_candidates = 1;
+  settings.num_rolls = 1;
   return settings;
 }
 
