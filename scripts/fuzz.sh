@@ -10,7 +10,7 @@
 # the next run begins with them. Inputs that crash, take more than 20 s or 2 GB are findings: they lie in build/fuzz/findings/NAME, with the
 # log in build/fuzz/logs/NAME.txt, and the script ends with 1. To see one again: build/fuzz/bin/fuzz_NAME FILE.
 #
-# --coverage then compiles everything again for llvm-cov, replays all kept inputs, and lists the lines covered of every file that parses.
+# --coverage then replays all kept inputs, and lists how much of every file that parses they reach.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -60,7 +60,7 @@ for name in "${targets[@]}"; do
     "$(sed -n 's/.* cov: \([0-9]*\).*/\1/p' <<<"$last")" "$(sed -n 's/.* ft: \([0-9]*\).*/\1/p' <<<"$last")" "$found"
 done
 
-if $coverage; then scripts/fuzz_coverage.sh "${targets[@]}"; fi
+if $coverage; then scripts/fuzz_coverage.py "${targets[@]}"; fi
 if [[ $num_findings -gt 0 ]]; then
   echo "fuzz: $num_findings findings in build/fuzz/findings" >&2
   exit 1
