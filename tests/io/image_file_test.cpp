@@ -61,6 +61,16 @@ TEST_CASE("read_rgb_image: missing files, folders and empty images are named") {
   CHECK(temp.num_files() == 0);
 }
 
+TEST_CASE("read_rgb_image: reads a PGM with comments, and refuses one whose size two decoders may understand differently") {
+  const TempFolder temp;
+  write_text(temp / "good.pgm", std::string("P5 # made by hand\n3 # wide\n2\n255\n") + "abcdef");
+  CHECK(read_rgb_image(temp / "good.pgm").width() == 3);
+  for (const char* head : {"P5\n1# 2 2 \n1 1 ", "P5 1 1 255#\n", "P5 1 2/ 255\n"}) {
+    write_text(temp / "bad.pgm", std::string(head) + std::string(8, '6'));
+    CHECK_THAT(error_of([&] { read_rgb_image(temp / "bad.pgm"); }), Contains("a PGM or PPM image cut short or with a damaged header"));
+  }
+}
+
 TEST_CASE("colourise_depth: near is brighter than far, nothing is black") {
   Image<float> depth(4, 1);
   depth(0, 0) = 0.5F;

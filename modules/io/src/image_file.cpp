@@ -39,7 +39,8 @@ std::string describe_image_error(std::string_view bytes) {
                ? "a JPEG image cut short"
                : "";
   }
-  if (begins_with("P5") || begins_with("P6")) return io::parse_image_header(bytes) ? "" : "a PGM or PPM image cut short";
+  if (begins_with("P5") || begins_with("P6"))
+    return io::parse_image_header(bytes) ? "" : "a PGM or PPM image cut short or with a damaged header";
   return "a file that begins with neither the PNG nor the JPEG signature";
 }
 
@@ -58,14 +59,16 @@ io::ImageHeader check_image(std::string_view bytes, const std::filesystem::path&
   return *header;
 }
 
-cv::Mat decode(std::string bytes, const std::filesystem::path& name, int flags) {
+/// @param header  which was checked: an image that comes out otherwise is refused.
+cv::Mat decode(std::string bytes, const std::filesystem::path& name, const io::ImageHeader& header, int flags) {
   cv::Mat image;
   try {
     image = cv::imdecode(cv::Mat(1, static_cast<int>(bytes.size()), CV_8UC1, bytes.data()), flags);
   } catch (const cv::Exception& exception) {
     throw_file_error(name, "an image that cannot be decoded (" + std::string(exception.err) + ")", kExpected);
   }
-  if (image.empty()) throw_file_error(name, "a damaged image", kExpected);
+  const bool is_as_announced = image.cols == header.size.width && image.rows == header.size.height;
+  if (image.empty() || !is_as_announced) throw_file_error(name, "a damaged image", kExpected);
   return image;
 }
 
@@ -102,7 +105,7 @@ namespace io {
 Image<Rgb8> decode_rgb(std::string bytes, const std::filesystem::path& name) {
   const ImageHeader header = check_image(bytes, name);
   if (header.bits_per_channel > 8) throw_file_error(name, pixel_text(header), "colour of 8 bits a channel");
-  const cv::Mat bgr = decode(std::move(bytes), name, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
+  const cv::Mat bgr = decode(std::move(bytes), name, header, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   Image<Rgb8> image(bgr.cols, bgr.rows);
   for (int v = 0; v < bgr.rows; ++v) {
     const auto* row = bgr.ptr<unsigned char>(v);
@@ -115,7 +118,7 @@ Image<Rgb8> decode_rgb(std::string bytes, const std::filesystem::path& name) {
 Image<std::uint16_t> decode_u16(std::string bytes, const std::filesystem::path& name) {
   const ImageHeader header = check_image(bytes, name);
   if (header.num_channels != 1 || header.bits_per_channel != 16) throw_file_error(name, pixel_text(header), "one channel of 16 bits");
-  const cv::Mat mat = decode(std::move(bytes), name, cv::IMREAD_UNCHANGED);
+  const cv::Mat mat = decode(std::move(bytes), name, header, cv::IMREAD_UNCHANGED);
   if (mat.type() != CV_16UC1) throw_file_error(name, "a damaged image", kExpected);
   Image<std::uint16_t> image(mat.cols, mat.rows);
   for (int v = 0; v < mat.rows; ++v) std::copy_n(mat.ptr<std::uint16_t>(v), mat.cols, &image(0, v));

@@ -52,17 +52,19 @@ std::optional<ImageHeader> parse_jpeg(std::string_view bytes) {
   return std::nullopt;
 }
 
-/// Reads a number of a PGM header, behind blanks and comments; 0 if there is none.
+/// Reads a number of a PGM header, behind blanks and comments; 0 if there is none, or no blank behind it: decoders disagree on what such a
+/// header says.
 std::uint32_t next_number(std::string_view bytes, std::size_t& at) {
-  while (at < bytes.size() && (std::isspace(static_cast<unsigned char>(bytes[at])) != 0 || bytes[at] == '#')) {
-    if (bytes[at] == '#') at = std::min(bytes.find('\n', at), bytes.size() - 1);
+  const auto is_blank = [&](std::size_t place) { return std::isspace(static_cast<unsigned char>(bytes[place])) != 0; };
+  while (at < bytes.size() && (is_blank(at) || bytes[at] == '#')) {
+    if (bytes[at] == '#') at = std::min(bytes.find_first_of("\r\n", at), bytes.size() - 1);
     ++at;
   }
   std::uint32_t value = 0;
   for (; at < bytes.size() && std::isdigit(static_cast<unsigned char>(bytes[at])) != 0 && value <= kMaxSide; ++at) {
     value = 10 * value + static_cast<std::uint32_t>(bytes[at] - '0');
   }
-  return value;
+  return at < bytes.size() && is_blank(at) ? value : 0;
 }
 
 std::optional<ImageHeader> parse_pnm(std::string_view bytes) {
