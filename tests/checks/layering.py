@@ -23,7 +23,7 @@ ALLOWED = {
     "io": BOTTOM + LAYER_2,
     "openni": BOTTOM,
     "learning": BOTTOM + LAYER_2,
-    "infinitam": BOTTOM,
+    "infinitam": BOTTOM + ["frames"],
 }
 # The rooms of a module's private sources, and what each may include besides itself. Sources beside the rooms compose them.
 ROOMS = {

@@ -8,7 +8,9 @@
 #include "foothold/base/array.h"
 #include "foothold/base/error.h"
 #include "foothold/base/random.h"
+#include "foothold/frames/colour_registration.h"
 #include "foothold/frames/frame_uploader.h"
+#include "foothold/frames/register_colour.h"
 #include "gpu/device.h"
 #include "gpu/executor_verbs.h"
 #include "support/catch.h"
@@ -236,6 +238,37 @@ TEST_CASE("FrameUploader: puts the images into device memory, frame after frame"
     detail::read_memory(context, colour.data(), uploaded.colour.data, colour.size());
     REQUIRE(colour[3 * frame.colour.size() - 1] == 3);
     REQUIRE(uploader.upload(uploaded).depth.data == uploaded.depth.data);  // already there
+  }
+}
+
+TEST_CASE("ColourRegistration: registers in device memory as on the host") {
+  const Context context = test::context_on(Device::kCuda);
+  ColourRegistration on_host;
+  ColourRegistration on_device;
+  for (const int width : {16, 24}) {  // neither is the size of colour
+    RgbdFrame frame;
+    frame.depth = Image<float>(width, 6, 1.5F);
+    frame.colour = Image<Rgb8>(32, 12);
+    for (int u = 0; u < 32; ++u) frame.colour(u, 5) = {static_cast<std::uint8_t>(7 * u), 2, 3};
+    frame.calibration.depth = {10.0F, 10.0F, 7.5F, 2.5F};
+    frame.calibration.colour = {20.0F, 20.0F, 15.5F, 5.5F};
+    frame.calibration.depth_from_colour.translation.x() = 0.1F;
+    const Array<float> depth(MemoryKind::kCuda, {frame.depth.data(), frame.depth.size()});
+    const Array<std::uint8_t> colour(MemoryKind::kCuda, {colour_view(frame.colour).data, 3 * frame.colour.size()});
+    Frame in_device_memory = frame.view();
+    in_device_memory.depth.data = depth.data();
+    in_device_memory.colour.data = colour.data();
+    in_device_memory.depth.memory = in_device_memory.colour.memory = MemoryKind::kCuda;
+    const Frame result = on_device.apply(in_device_memory);
+    REQUIRE(describe_frame_error(result).empty());
+    REQUIRE(is_registered(result));
+    REQUIRE(result.depth.data == depth.data());
+    REQUIRE(result.colour.memory == MemoryKind::kCuda);
+    std::vector<std::uint8_t> registered(3 * frame.depth.size());
+    detail::read_memory(context, registered.data(), result.colour.data, registered.size());
+    const Frame expected = on_host.apply(frame.view());
+    REQUIRE(std::equal(registered.begin(), registered.end(), expected.colour.data));
+    REQUIRE(on_device.apply(result).colour.data == result.colour.data);  // registered already
   }
 }
 

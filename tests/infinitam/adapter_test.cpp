@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "foothold/base/error.h"
+#include "foothold/frames/register_colour.h"
 #include "support/catch.h"
 #include "support/random_seed.h"
 
@@ -191,6 +192,44 @@ TEST_CASE("Adapter: trains with the pose turned round, and counts frames") {
   REQUIRE(are_close(fixture.relocaliser.poses[0], fixture.camera_from_world.inverse()));
   adapter.reset();
   REQUIRE(fixture.relocaliser.frames.empty());
+}
+
+TEST_CASE("Adapter: colour that the host has not registered is registered, whatever its size") {
+  Fixture fixture;
+  fixture.calibration.trafo_rgb_to_depth.calib = from_se3<HostMatrix>(SE3{});
+  fixture.calibration.intrinsics_rgb.projectionParamsSimple = {1170.0F, 1172.0F, 640.5F, 480.5F};  // twice that of depth
+  fixture.rgb.noDims = {8, 6};
+  fixture.rgb.cpu.clear();
+  for (unsigned char v = 0; v < 6; ++v) {
+    for (unsigned char u = 0; u < 8; ++u)
+      fixture.rgb.cpu.push_back({static_cast<unsigned char>(10 * u), static_cast<unsigned char>(20 * v), 7, 255});
+  }
+  const HostView<HostCalibration> view{fixture.calibration, &fixture.rgb, &fixture.depth};
+  Adapter adapter(fixture.relocaliser, HOST_CPU, MemoryKind::kHost);
+  adapter.train(view, fixture.state);
+  adapter.relocalise(view, fixture.state);
+  for (const Frame& frame : fixture.relocaliser.frames) {
+    REQUIRE(describe_frame_error(frame).empty());
+    REQUIRE(is_registered(frame));
+    REQUIRE(frame.depth.data == fixture.depth.cpu.data());
+  }
+  // A pixel of depth lies between four of colour.
+  const Rgb8 colour = fixture.relocaliser.frames.back().colour(1, 1);
+  REQUIRE(static_cast<int>(colour.r) == 25);
+  REQUIRE(static_cast<int>(colour.g) == 50);
+}
+
+TEST_CASE("Adapter: hands over the host's own images where they are registered") {
+  Fixture fixture;
+  fixture.calibration.trafo_rgb_to_depth.calib = from_se3<HostMatrix>(SE3{});
+  fixture.calibration.intrinsics_rgb = fixture.calibration.intrinsics_d;
+  const HostView<HostCalibration> view{fixture.calibration, &fixture.rgb, &fixture.depth};
+  Adapter adapter(fixture.relocaliser, HOST_CPU, MemoryKind::kHost);
+  adapter.train(view, fixture.state);
+  REQUIRE(fixture.relocaliser.frames[0].colour.data == &fixture.rgb.cpu.data()->x);
+  Adapter on_device(fixture.relocaliser, HOST_GPU, MemoryKind::kCuda);
+  on_device.train(view, fixture.state);
+  REQUIRE(fixture.relocaliser.frames[1].colour.data == &fixture.rgb.gpu.data()->x);
 }
 
 TEST_CASE("Adapter: writes a confident proposal into the tracking state, and leaves it alone otherwise") {

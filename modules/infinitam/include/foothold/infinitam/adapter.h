@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// A relocaliser inside InfiniTAM: wraps a view's pointers, turns poses round, copies nothing. Reference: [Prisacariu2017].
+/// A relocaliser inside InfiniTAM: wraps a view's pointers, turns poses round, registers colour. Reference: [Prisacariu2017].
 ///
 /// Templates over the host's own types, by the names of their members alone:
 ///
@@ -27,6 +27,7 @@
 
 #include "foothold/api/relocaliser.h"
 #include "foothold/base/contract.h"
+#include "foothold/frames/colour_registration.h"
 
 namespace foothold::infinitam {
 
@@ -92,9 +93,7 @@ void set_world_from_camera(TrackingState& state, const SE3& world_from_camera) {
 
 /// Views the images of a host's view. They must stay alive, and unchanged, while the frame is used.
 ///
-/// Colour comes as the host has it: hosts that calibrate the two cameras instead of registering their images hand over unregistered colour,
-/// with which the camera is found less surely. register_colour() of module frames warps it on the host, for training and relocalisation
-/// alike.
+/// Colour comes as the host has it: registered to depth or not, and of any size. The Adapter registers it.
 ///
 /// @param device  The host's own name for the memory that its images are up to date in, as GetData() takes it.
 /// @param memory  The same memory in Foothold's terms.
@@ -113,6 +112,9 @@ Frame make_frame(const View& view, MemoryDevice device, const Memory& memory, st
 }
 
 /// Drives a relocaliser with a host's views and tracking states. Both must outlive it.
+///
+/// Where the host calibrates its two cameras instead of registering their images, colour is registered to depth first, since a camera is
+/// found more surely so: about 1.4 ms for 640x480 pixels, and in CUDA memory two waits for the device (ColourRegistration).
 template <class MemoryDevice>
 class Adapter {
  public:
@@ -120,17 +122,17 @@ class Adapter {
   Adapter(Relocaliser& relocaliser, MemoryDevice device, const Memory& memory)
       : relocaliser_(relocaliser), device_(device), memory_(memory) {}
 
-  /// Learns from a view whose pose the host trusts. @pre Depth and colour have the same size.
+  /// Learns from a view whose pose the host trusts.
   template <class View, class TrackingState>
   void train(const View& view, const TrackingState& state) {
-    relocaliser_.train(make_frame(view, device_, memory_, num_frames_++), world_from_camera(state));
+    relocaliser_.train(next_frame(view), world_from_camera(state));
   }
 
   /// Looks for a lost camera. If the best proposal is confident enough, it is written into the tracking state, for the host to refine by
   /// tracking as usual. @return The accepted proposal; empty if there is none, and the tracking state is as before.
   template <class View, class TrackingState>
   std::optional<PoseEstimate> relocalise(const View& view, TrackingState& state) {
-    const std::vector<PoseEstimate> estimates = relocaliser_.relocalise(make_frame(view, device_, memory_, num_frames_++));
+    const std::vector<PoseEstimate> estimates = relocaliser_.relocalise(next_frame(view));
     if (estimates.empty() || estimates.front().confidence < relocaliser_.acceptance_threshold()) return std::nullopt;
     set_world_from_camera(state, estimates.front().world_from_camera);
     return estimates.front();
@@ -143,10 +145,16 @@ class Adapter {
   void reset() { relocaliser_.reset(); }
 
  private:
+  template <class View>
+  Frame next_frame(const View& view) {
+    return registration_.apply(make_frame(view, device_, memory_, num_frames_++));
+  }
+
   Relocaliser& relocaliser_;
   MemoryDevice device_;
   Memory memory_;
   std::int64_t num_frames_ = 0;
+  ColourRegistration registration_;
 };
 
 }  // namespace foothold::infinitam
