@@ -37,6 +37,7 @@ std::string RunLog::add(double timestamp_s, const FusionFrameResult& result) {
   frame_ms_.push_back(result.total_ms);
   num_fused_ += result.fused ? 1 : 0;
   num_relocalised_ += result.relocalised ? 1 : 0;
+  num_blocks_refused_ += result.num_blocks_refused;
   const std::string where = "frame " + std::to_string(frame) + ": ";
   if (!result.world_from_camera.has_value()) {
     const bool is_new = !is_lost_;
@@ -78,6 +79,7 @@ std::string RunLog::to_json(const Surroundings& surroundings) const {
   json["losses"] = losses;
   json["final_state"] = to_string(state_);
   json["map_blocks"] = surroundings.num_blocks;
+  json["blocks_refused"] = num_blocks_refused_;
   if (!frame_ms_.empty()) json["frame_ms"] = {{"median", quantile(frame_ms_, 0.5)}, {"p95", quantile(frame_ms_, 0.95)}};
   json["recording"] = recording_json(surroundings.recording, surroundings.record_folder);
   json["loaded_scene"] = surroundings.loaded_scene.empty() ? Json(nullptr) : Json(surroundings.loaded_scene);

@@ -56,6 +56,7 @@ class RunLog {
   std::int64_t num_with_pose_ = 0;
   std::int64_t num_fused_ = 0;
   std::int64_t num_relocalised_ = 0;
+  std::int64_t num_blocks_refused_ = 0;
   std::vector<Loss> losses_;
   bool is_lost_ = false;
   std::vector<StampedPose> trajectory_;

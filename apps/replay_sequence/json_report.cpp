@@ -26,7 +26,9 @@ Json run_json(const ReplayRun& run) {
                {"fused", counts.num_fused},
                {"relocalised", counts.num_relocalised},
                {"without_true_pose", counts.num_without_true_pose},
-               {"without_depth", counts.num_without_depth}};
+               {"without_depth", counts.num_without_depth},
+               {"blocks_refused", counts.num_blocks_refused},
+               {"depth_out_of_range", counts.out_of_range_fraction}};
   if (const std::optional<RunError> error = run_error(run); error.has_value()) {
     json["ate_frames"] = error->num_frames;
     json["ate"] = ate_json(error->raw);

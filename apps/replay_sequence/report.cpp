@@ -68,6 +68,7 @@ std::string surface_table(const std::vector<SurfaceComparison>& surfaces) {
 
 RunCounts count_frames(const ReplayRun& run) {
   RunCounts counts;
+  int num_with_depth = 0;
   for (const ReplayFrame& frame : run.frames) {
     ++counts.num_frames;
     counts.num_tracking += frame.result.state == RecoveryState::kTracking ? 1 : 0;
@@ -77,7 +78,11 @@ RunCounts count_frames(const ReplayRun& run) {
     counts.num_relocalised += frame.result.relocalised ? 1 : 0;
     counts.num_without_true_pose += frame.world_from_camera_true.has_value() ? 0 : 1;
     counts.num_without_depth += frame.has_depth || frame.step.covered ? 0 : 1;
+    counts.num_blocks_refused += frame.result.num_blocks_refused;
+    counts.out_of_range_fraction += static_cast<double>(frame.result.out_of_range_fraction);
+    num_with_depth += frame.has_depth ? 1 : 0;
   }
+  if (num_with_depth > 0) counts.out_of_range_fraction /= num_with_depth;
   return counts;
 }
 

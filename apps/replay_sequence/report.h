@@ -23,6 +23,8 @@ struct RunCounts {
   int num_relocalised = 0;
   int num_without_true_pose = 0;
   int num_without_depth = 0;
+  int num_blocks_refused = 0;          ///< by a full map, summed over frames
+  double out_of_range_fraction = 0.0;  ///< of the depth of frames that have some, on average
 };
 RunCounts count_frames(const ReplayRun& run);
 

@@ -152,6 +152,20 @@ class KidnapTest(ReplayTest):
         self.assertEqual(len(result["kidnaps"]), 1)
 
 
+class LimitsTest(ReplayTest):
+    def test_a_map_that_is_full_is_warned_of_and_counted(self):
+        result = self.replay("--method", "none", "--set", "fusion.volume.max_blocks=300")
+        self.assertEqual(len(result["warnings"]), 1)
+        self.assertIn("fusion.volume.max_blocks = 300", result["warnings"][0])
+        self.assertGreater(result["undisturbed"]["blocks_refused"], 0)
+
+    def test_depth_out_of_range_is_warned_of_and_counted(self):
+        result = self.replay("--method", "none", "--set", "fusion.volume.max_depth_m=1")
+        self.assertEqual(len(result["warnings"]), 1)
+        self.assertIn("fusion.volume.max_depth_m = 1,", result["warnings"][0])
+        self.assertGreater(result["undisturbed"]["depth_out_of_range"], 0.5)
+
+
 class ShowTest(ReplayTest):
     @unittest.skipUnless(shutil.which("xvfb-run"), "xvfb-run is not installed")
     def test_shows_a_window(self):

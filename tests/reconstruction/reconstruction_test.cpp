@@ -26,6 +26,19 @@ Context two_threads() {
   return Context(options);
 }
 
+/// Keeps what a context is warned of.
+struct LoggedWarnings {
+  std::vector<std::string> warnings;
+  Context context() {
+    ContextOptions options;
+    options.num_threads = 2;
+    options.log = [this](LogLevel level, const std::string& message) {
+      if (level == LogLevel::kWarning) warnings.push_back(message);
+    };
+    return Context(options);
+  }
+};
+
 ReconstructionSettings small_settings() {
   ReconstructionSettings settings;
   settings.fusion.volume.voxel_size_m = 0.02F;
@@ -237,6 +250,36 @@ TEST_CASE("Reconstruction: the first pose is the host's to choose") {
   const FusionFrameResult result = reconstruction.process(kitchen().front().view());
   REQUIRE(result.world_from_camera.has_value());
   CHECK(result.world_from_camera->translation == kitchen().front().world_from_camera->translation);
+}
+
+TEST_CASE("Reconstruction: warns once of a map that is full, and names the setting") {
+  LoggedWarnings log;
+  ReconstructionSettings settings = small_settings();
+  settings.fusion.volume.max_blocks = 50;
+  Reconstruction reconstruction(log.context(), settings, small_forest());
+  const FusionFrameResult result = reconstruction.process(kitchen()[0].view());
+  CHECK(result.num_blocks_refused > 0);
+  REQUIRE(log.warnings.size() == 1);
+  CHECK_THAT(log.warnings[0], Contains("fusion.volume.max_blocks = 50") && Contains(std::to_string(result.num_blocks_refused) + " more"));
+  reconstruction.process(kitchen()[0].view());
+  Reconstruction copy(reconstruction);
+  copy.process(kitchen()[0].view());
+  CHECK(log.warnings.size() == 1);
+}
+
+TEST_CASE("Reconstruction: warns once if most of the depth is out of range, and names the limits") {
+  LoggedWarnings log;
+  ReconstructionSettings settings = small_settings();
+  settings.fusion.volume.max_depth_m = 1.0F;
+  Reconstruction reconstruction(log.context(), settings, small_forest());
+  const FusionFrameResult result = reconstruction.process(kitchen()[0].view());
+  CHECK(result.out_of_range_fraction > 0.5F);
+  reconstruction.process(kitchen()[1].view());
+  REQUIRE(log.warnings.size() == 1);
+  CHECK_THAT(log.warnings[0], Contains("% of the depth") && Contains("fusion.volume.max_depth_m = 1,"));
+  Reconstruction in_range(log.context(), small_settings(), small_forest());
+  CHECK(in_range.process(kitchen()[0].view()).out_of_range_fraction < 0.5F);
+  CHECK(log.warnings.size() == 1);
 }
 
 TEST_CASE("ReconstructionSettings: those of the parts are validated") {

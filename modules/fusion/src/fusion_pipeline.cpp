@@ -247,7 +247,7 @@ const RefinedPose* FusionPipeline::choose(Span<const RefinedPose> refined, bool 
 
 void FusionPipeline::fuse(const Frame& frame, FusionFrameResult& result) {
   const Stopwatch watch;
-  volume_.integrate(frame, world_from_camera_);
+  result.num_blocks_refused = volume_.integrate(frame, world_from_camera_).num_blocks_refused;
   result.fused = true;
   result.fuse_ms = watch.elapsed_ms();
 }

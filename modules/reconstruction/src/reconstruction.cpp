@@ -12,6 +12,7 @@
 
 #include "foothold/api/relocaliser_decorator.h"
 #include "foothold/base/error.h"
+#include "map_limits.h"
 
 namespace foothold {
 namespace {
@@ -76,7 +77,8 @@ void ReconstructionSettings::validate() const {
 struct Reconstruction::Scene {
   Scene(const Context& context, const FusionSettings& settings, std::unique_ptr<Relocaliser> the_relocaliser, Copy the_copy)
       : copy(the_copy), relocaliser(std::move(the_relocaliser)), pipeline(context, settings, decorate()) {}
-  Scene(const Scene& other) : copy(other.copy), relocaliser(other.copied_relocaliser()), pipeline(other.pipeline, decorate()) {
+  Scene(const Scene& other)
+      : copy(other.copy), relocaliser(other.copied_relocaliser()), pipeline(other.pipeline, decorate()), limits(other.limits) {
     if (switched.has_value()) switched->is_on = other.switched->is_on;
   }
   Scene& operator=(const Scene&) = delete;
@@ -98,6 +100,7 @@ struct Reconstruction::Scene {
   std::unique_ptr<Relocaliser> relocaliser;
   std::optional<SwitchedRelocaliser> switched;  // around the relocaliser
   FusionPipeline pipeline;
+  MapLimits limits;
 };
 
 Reconstruction::Reconstruction(const Context& context, const ReconstructionSettings& settings, Forest forest)
@@ -133,9 +136,18 @@ Reconstruction& Reconstruction::operator=(Reconstruction other) noexcept {
 }
 
 void Reconstruction::start_at(const SE3& world_from_camera) { scene_->pipeline.start_at(world_from_camera); }
-FusionFrameResult Reconstruction::process(const Frame& frame) { return scene_->pipeline.process(uploader_.upload(frame)); }
+
+FusionFrameResult Reconstruction::process(const Frame& frame) {
+  FusionFrameResult result = scene_->pipeline.process(uploader_.upload(frame));
+  scene_->limits.watch(frame, scene_->pipeline.settings().volume, context_, result);
+  return result;
+}
+
 void Reconstruction::force_loss() { scene_->pipeline.force_loss(); }
-void Reconstruction::reset() { scene_->pipeline.reset(); }
+void Reconstruction::reset() {
+  scene_->pipeline.reset();
+  scene_->limits = {};
+}
 
 bool Reconstruction::relocalises() const { return scene_->switched.has_value() && scene_->switched->is_on; }
 void Reconstruction::set_relocalises(bool on) {

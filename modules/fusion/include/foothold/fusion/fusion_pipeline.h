@@ -58,6 +58,8 @@ struct FusionFrameResult {
   bool relocaliser_asked = false;
   bool relocalised = false;  ///< the pose is the relocaliser's, refined
   bool fused = false;
+  int num_blocks_refused = 0;          ///< by the map when the frame was fused, for it was full
+  float out_of_range_fraction = 0.0F;  ///< of the frame's depth, what the map's limits leave out; filled in by Reconstruction
   bool trained = false;
   ViewAgreement agreement;
   double track_ms = 0.0;

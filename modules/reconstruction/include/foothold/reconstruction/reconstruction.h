@@ -71,7 +71,7 @@ class Reconstruction {
   /// Sets the pose of the first frame; the identity otherwise. @pre No frame was processed since construction or reset().
   void start_at(const SE3& world_from_camera);
   /// Takes the next frame, in host memory or the context's; it is copied to the device where that has a memory of its own. Its images are
-  /// free when the call returns.
+  /// free when the call returns. The context's log is warned once when the map is full, and once if most depth lies outside its range.
   FusionFrameResult process(const Frame& frame);
   /// Makes tracking of the next frame fail, whatever it shows: for tests and benchmarks.
   void force_loss();

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Foothold authors
+#include "map_limits.h"
+
+#include <cmath>
+#include <string>
+
+#include "foothold/base/settings.h"
+
+namespace foothold {
+namespace {
+
+std::string text_of(float value) { return detail::to_text(value); }
+
+}  // namespace
+
+void MapLimits::watch(const Frame& frame, const TsdfSettings& volume, const Context& context, FusionFrameResult& result) {
+  const bool is_readable = frame.depth.memory == MemoryKind::kHost && !frame.depth.empty();
+  if (is_readable) watch_range(frame, volume, context, result);
+  if (result.num_blocks_refused == 0 || told_full_) return;
+  told_full_ = true;
+  context.log(LogLevel::kWarning, "the map is full: it holds fusion.volume.max_blocks = " + std::to_string(volume.max_blocks) +
+                                      ", and frame " + std::to_string(frame.index) + " wanted " +
+                                      std::to_string(result.num_blocks_refused) +
+                                      " more; what is new is left out from here on, and tracking fails there");
+}
+
+void MapLimits::watch_range(const Frame& frame, const TsdfSettings& volume, const Context& context, FusionFrameResult& result) {
+  constexpr int kStep = 4;          // pixels looked at, in both directions
+  constexpr double kTooMuch = 0.5;  // of all depth so far
+  int num_measured = 0;
+  int num_out = 0;
+  for (int v = 0; v < frame.depth.height; v += kStep) {
+    for (int u = 0; u < frame.depth.width; u += kStep) {
+      const float z = frame.depth(u, v);
+      num_measured += is_valid_depth(z) ? 1 : 0;
+      num_out += is_valid_depth(z) && !volume.depth_range().holds(z) ? 1 : 0;
+    }
+  }
+  if (num_measured == 0) return;
+  result.out_of_range_fraction = static_cast<float>(num_out) / static_cast<float>(num_measured);
+  num_measured_ += num_measured;
+  num_out_of_range_ += num_out;
+  const double fraction = num_out_of_range_ / num_measured_;
+  if (told_range_ || fraction <= kTooMuch) return;
+  told_range_ = true;
+  context.log(LogLevel::kWarning, std::to_string(std::lround(100.0 * fraction)) + " % of the depth until frame " +
+                                      std::to_string(frame.index) +
+                                      " lies outside of fusion.volume.min_depth_m = " + text_of(volume.min_depth_m) +
+                                      " to fusion.volume.max_depth_m = " + text_of(volume.max_depth_m) + ", and is not used");
+}
+
+}  // namespace foothold
