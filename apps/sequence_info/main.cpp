@@ -54,6 +54,12 @@ int run(const Options& options) {
   const Context context(context_options);
   const std::shared_ptr<const Recording> recording = open_recording(options.folder, context, as_told);
   const RecordingCheck check = check_recording(*recording);
+  if (check.num_depth_frames == 0 && check.num_unreadable > 0) throw FileError(check.first_error);
+  if (check.num_unreadable > 0) {
+    context.log(LogLevel::kWarning, std::to_string(check.num_unreadable) + " of the " +
+                                        std::to_string(check.num_unreadable + check.num_depth_frames) +
+                                        " frames looked at cannot be read, the first of them " + check.first_error);
+  }
   for (const std::string& warning : check.warnings) context.log(LogLevel::kWarning, warning);
   const Course course = course_of(recording->facts());
   std::printf("%s", text_report(*recording, course, check).c_str());

@@ -44,6 +44,16 @@ class SequenceInfoTest(app_support.AppTest):
         (self.folder / "take" / "frame-000002.depth.png").write_bytes(b"damaged")
         self.check_success("take", "--picture", "sheet.png")
 
+    def test_depth_of_another_kind_is_refused_and_a_damaged_frame_warned_of(self):
+        (self.folder / "take" / "frame-000001.depth.png").write_bytes(b"damaged")
+        result = self.check_success("take")
+        self.assertIn("1 of the 6 frames looked at cannot be read", result.stderr)
+        self.assertIn("frame-000001.depth.png", result.stderr)
+        grey = [bytes(80)] * 60
+        for path in (self.folder / "take").glob("*.depth.png"):
+            app_support.write_png(path, 80, 60, grey, 8, 1)
+        self.check_refused("take", says=["frame-000000.depth.png", "8 bits", "one channel of 16 bits"])
+
     def test_pipes_instead_of_files_do_not_hang(self):
         for name in ["camera-intrinsics.txt", "frame-000000.depth.png", "frame-000001.pose.txt"]:
             with self.subTest(name):

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "foothold/io/image_file.h"
 #include "io_fixtures.h"
 #include "room_recording.h"
 #include "support/catch.h"
@@ -61,6 +62,23 @@ TEST_CASE("check_recording: depth in another unit is told by its median, or by p
     CHECK_THAT(warnings_of(temp.path()), Contains("unit of depth") && Contains("1/1000") && Contains("--depth-scale 5000"));
     write_text(temp / "depth-scale.txt", "5000\n");
     CHECK(warnings_of(temp.path()).empty());
+  }
+  SECTION("units not far from the layout's, which poses tell apart") {
+    const double units = GENERATE(500.0, 2000.0, 4000.0, 8000.0, 256.0);
+    CAPTURE(units);
+    RoomFormat format;
+    format.units_per_m = units;
+    write_room_as_seven_scenes(temp.path(), format);
+    CHECK_THAT(warnings_of(temp.path()),
+               Contains("unit of depth") && Contains("--depth-scale " + std::to_string(static_cast<int>(units)) + " "));
+    CHECK(warnings_of(temp.path(), with_scale(units)).empty());
+    CHECK(warnings_of(temp.path(), with_scale(1.0 / units)).empty());  // metres per unit
+  }
+  SECTION("whole metres, which hold too little to tell anything else") {
+    RoomFormat format;
+    format.units_per_m = 1.0;
+    write_room_as_seven_scenes(temp.path(), format);
+    CHECK_THAT(warnings_of(temp.path(), with_scale(1.0)), !Contains("--pose-convention"));
   }
   SECTION("whole metres") {
     RoomFormat format;
@@ -135,6 +153,33 @@ TEST_CASE("check_recording: poses of another convention are told by how they fit
   CHECK(is_near(read, *room_frames()[5].world_from_camera, 1e-4F, 0.01F));
   write_text(temp / "pose-convention.txt", c.words + "\n");
   CHECK(warnings_of(temp.path()).empty());
+}
+
+TEST_CASE("check_recording: depth along rays, and intrinsics a fifth too large, do not fit the poses") {
+  const TempFolder temp;
+  write_room_as_seven_scenes(temp.path());
+  SequenceOptions options;
+  SECTION("rays") {
+    const Intrinsics& k = room_frames().front().calibration.depth;
+    for (std::size_t i = 0; i < room_frames().size(); ++i) {
+      Image<float> rays = room_frames()[i].depth;
+      for (int v = 0; v < rays.height(); ++v) {
+        for (int u = 0; u < rays.width(); ++u) rays(u, v) *= k.back_project(static_cast<float>(u), static_cast<float>(v), 1.0F).norm();
+      }
+      write_png(temp / ("frame-0000" + std::string(i < 10 ? "0" : "") + std::to_string(i) + ".depth.png"), depth_in_units(rays, 1000.0));
+    }
+  }
+  SECTION("intrinsics") { options.intrinsics = "180,180,79.625,59.625"; }
+  CHECK_THAT(warnings_of(temp.path(), options), Contains("of the depth agrees between frames") && Contains("may be wrong"));
+}
+
+TEST_CASE("check_recording: a small thing seen from near is no wrong unit if its poses fit") {
+  const TempFolder temp;
+  RoomFormat format;
+  format.units_per_m = 150.0;  // a seventh of the room's size
+  format.pose = [](const RecordedPose& p) { return RecordedPose{p.rotation, 0.15 * p.translation_m}; };
+  write_room_as_seven_scenes(temp.path(), format);
+  CHECK_THAT(warnings_of(temp.path()), Contains("its poses fit") && !Contains("--depth-scale"));
 }
 
 TEST_CASE("check_recording: quaternions with w first are told, and read") {

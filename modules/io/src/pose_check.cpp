@@ -16,6 +16,7 @@ constexpr double kSameDepth = 0.02;
 
 struct Count {
   int num_points = 0;
+  int num_seen = 0;
   int num_agreeing = 0;
   double score = 0.0;
 };
@@ -45,6 +46,7 @@ Count count_agreeing(const FramePair& pair, const Intrinsics& k, const Reading& 
         --count.num_points;  // a hole says nothing
         continue;
       }
+      ++count.num_seen;
       const double tolerance = kSameDepth_m / reading.depth_factor + kSameDepth * point.z();
       const double misfit = std::abs(static_cast<double>(depth_b) - point.z()) / tolerance;
       if (misfit >= 1.0) continue;
@@ -75,7 +77,6 @@ std::vector<Reading> make_readings() {
       readings.push_back({scaled, 1.0});
     }
   }
-  for (const double factor : {5.0, 0.2, 1000.0, 10.0, 0.1, 1e-3}) readings.push_back({{}, factor});
   return readings;
 }
 
@@ -86,14 +87,16 @@ Agreement pose_agreement(const std::vector<FramePair>& pairs, const Intrinsics& 
   for (const FramePair& pair : pairs) {
     const Count count = count_agreeing(pair, camera, reading);
     sum.num_points += count.num_points;
+    sum.num_seen += count.num_seen;
     sum.num_agreeing += count.num_agreeing;
     sum.score += count.score;
   }
-  if (sum.num_points == 0) return {};
-  return {static_cast<double>(sum.num_agreeing) / sum.num_points, sum.score / sum.num_points};
+  if (sum.num_seen == 0) return {};
+  return {static_cast<double>(sum.num_agreeing) / sum.num_seen, static_cast<double>(sum.num_seen) / sum.num_points,
+          sum.score / sum.num_points};
 }
 
-const std::vector<Reading>& other_readings() {
+const std::vector<Reading>& other_conventions() {
   static const std::vector<Reading> readings = make_readings();
   return readings;
 }

@@ -27,15 +27,15 @@ struct Reading {
 
 /// How well a reading fits.
 struct Agreement {
-  double fraction =
-      0.0;             ///< of the points of one frame of each pair, those that the other sees where the poses say it should, at their depth
-  double score = 0.0;  ///< the same, but the more a point counts the better its depth fits: tells near misses apart
+  double fraction = 0.0;  ///< of the points that should be seen in the other frame, those that are, at their depth
+  double seen = 0.0;      ///< of all points, those that should be seen in the other frame
+  double score = 0.0;     ///< of all points, those that agree, each counting the more the better its depth fits: tells near misses apart
 };
 
 /// Projects the first frame of each pair into the second.
 Agreement pose_agreement(const std::vector<FramePair>& pairs, const Intrinsics& camera, const Reading& reading);
 
-/// Readings that people's files turn out to need, likelier ones first.
-const std::vector<Reading>& other_readings();
+/// Conventions of poses that people's files turn out to have, likelier ones first.
+const std::vector<Reading>& other_conventions();
 
 }  // namespace foothold::io

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "depth_statistics.h"
 #include "foothold/base/error.h"
 #include "image_header.h"
 #include "pose_check.h"
@@ -18,18 +19,29 @@ namespace {
 using io::FramePair;
 
 constexpr int kNumAnchors = 6;
-/// Two frames of a pair are as far apart as this, or as many frames.
-constexpr float kPairMotion_m = 0.1F;
-constexpr float kPairMotion_rad = 0.09F;
+/// Two frames of a pair are as far apart as this, or as many frames: depth that is a quarter too large then shows clearly.
+constexpr float kPairMotion_m = 0.3F;
+constexpr float kPairMotion_rad = 0.27F;
 constexpr int kMinPairFrames = 3;
-constexpr int kMaxPairFrames = 30;
+constexpr int kMaxPairFrames = 60;
 /// Right poses of real recordings agree for most of the points: other readings are not even tried.
 constexpr double kGoodAgreement = 0.9;
+/// Fewer points that should be seen in the other frame say little.
+constexpr double kLeastSeen = 0.3;
+/// Other readings are worth a word only if they agree so well.
+constexpr double kLeastOfBetter = 0.8;
+/// Units of depth that people use, per metre, likelier ones first.
+constexpr std::array<double, 11> kDepthUnitsPerM{1000.0, 5000.0, 10000.0, 4000.0, 100.0, 1.0, 256.0, 6553.5, 2000.0, 8000.0, 500.0};
+/// Two frames tell whether depth and positions have one unit if they are so far apart, in parts of the depth.
+constexpr double kTellingBaseline = 0.05;
+/// A hand-held camera moves at least so far between frames [m], if a smaller unit of positions is worth trying.
+constexpr double kLeastMotion_m = 0.0005;
 /// Another reading fits far better if it leaves less than this part of the disagreement, and fits better by this much.
 constexpr double kByFar = 0.5;
 constexpr double kLeastGain = 0.1;
 /// Poses of which no reading fits are worth a word below this.
-constexpr double kHopelessAgreement = 0.25;
+constexpr double kDoubtfulAgreement = 0.6;
+constexpr double kHardlySeen = 0.1;
 /// Recordings with less depth than this are hardly worth the name.
 constexpr double kLeastValidFraction = 0.05;
 
@@ -41,49 +53,15 @@ std::string metres(double distance_m) {
   return text.data();
 }
 
-/// The depth of a frame; empty if it cannot be read.
-Image<float> try_depth(const Recording& recording, int index) {
+/// The depth of a frame; empty if it cannot be read, which is noted.
+Image<float> try_depth(const Recording& recording, int index, RecordingCheck& check) {
   try {
     return recording.load_depth(index);
-  } catch (const FileError&) {
+  } catch (const FileError& error) {
+    if (check.num_unreadable++ == 0) check.first_error = error.what();
     return {};
   }
 }
-
-/// Collects depths of every fourth pixel in both directions.
-class DepthStatistics {
- public:
-  void add(const Image<float>& depth) {
-    constexpr int kStep = 4;
-    if (depth.empty()) return;
-    ++num_frames_;
-    for (int v = 0; v < depth.height(); v += kStep) {
-      for (int u = 0; u < depth.width(); u += kStep) {
-        ++num_pixels_;
-        if (is_valid_depth(depth(u, v))) depths_m_.push_back(depth(u, v));
-      }
-    }
-  }
-
-  void finish(RecordingCheck& check) {
-    check.num_depth_frames = num_frames_;
-    if (num_pixels_ == 0 || depths_m_.empty()) return;
-    const auto count = static_cast<double>(depths_m_.size());
-    check.valid_fraction = count / static_cast<double>(num_pixels_);
-    const auto within = std::count_if(depths_m_.begin(), depths_m_.end(), [](float z) {
-      return z >= static_cast<float>(kLeastMedianDepth_m) && z <= static_cast<float>(kMostMedianDepth_m);
-    });
-    check.within_fraction = static_cast<double>(within) / count;
-    const auto middle = depths_m_.begin() + static_cast<std::ptrdiff_t>(depths_m_.size() / 2);
-    std::nth_element(depths_m_.begin(), middle, depths_m_.end());
-    check.median_depth_m = static_cast<double>(*middle);
-  }
-
- private:
-  int num_frames_ = 0;
-  std::size_t num_pixels_ = 0;
-  std::vector<float> depths_m_;
-};
 
 io::RecordedPose in_own_frame(const SE3& pose, const Eigen::Vector3d& origin_m) {
   return {pose.rotation.cast<double>(), pose.translation.cast<double>() + origin_m};
@@ -105,49 +83,79 @@ int partner_of(int anchor, const std::vector<std::optional<SE3>>& poses) {
 }
 
 /// Frames with a pose and their partners, spread over the recording.
-std::vector<FramePair> collect_pairs(const Recording& recording, DepthStatistics& statistics) {
+struct Pairs {
+  std::vector<FramePair> frames;
+  double motion_m = 0.0;    ///< between consecutive frames, on average
+  double baseline_m = 0.0;  ///< between the two of a pair, on average
+};
+
+Pairs collect_pairs(const Recording& recording, io::DepthStatistics& statistics, RecordingCheck& check) {
   const auto& poses = recording.facts().world_from_camera;
-  std::vector<FramePair> pairs;
+  Pairs pairs;
+  double path_m = 0.0;
+  int num_steps = 0;
   for (int i = 0; i < kNumAnchors; ++i) {
     const int anchor = static_cast<int>(static_cast<std::size_t>(i) * poses.size() / kNumAnchors);
     const bool has_pose = poses[static_cast<std::size_t>(anchor)].has_value();
     const int partner = has_pose ? partner_of(anchor, poses) : -1;
     FramePair pair;
-    pair.depth_a = try_depth(recording, anchor);
+    pair.depth_a = try_depth(recording, anchor, check);
     statistics.add(pair.depth_a);
     if (partner < 0) continue;
-    pair.depth_b = try_depth(recording, partner);
+    pair.depth_b = try_depth(recording, partner, check);
     statistics.add(pair.depth_b);
     if (pair.depth_a.empty() || pair.depth_b.empty()) continue;
     pair.world_from_a = in_own_frame(*poses[static_cast<std::size_t>(anchor)], recording.origin_m());
     pair.world_from_b = in_own_frame(*poses[static_cast<std::size_t>(partner)], recording.origin_m());
-    pairs.push_back(std::move(pair));
+    path_m += (pair.world_from_b.translation_m - pair.world_from_a.translation_m).norm();
+    num_steps += partner - anchor;
+    pairs.frames.push_back(std::move(pair));
   }
+  if (num_steps > 0) pairs.motion_m = path_m / num_steps;
+  if (num_steps > 0) pairs.baseline_m = path_m / static_cast<double>(pairs.frames.size());
   return pairs;
 }
 
-void check_poses(const std::vector<FramePair>& pairs, const RecordingFacts& facts, RecordingCheck& check) {
+/// What else might be meant: other conventions whose positions are of a sensible size, and units in which depth is that of a room.
+std::vector<io::Reading> other_readings(const RecordingFacts& facts, double motion_m, double median_depth_m) {
+  std::vector<io::Reading> readings;
+  for (const io::Reading& reading : io::other_conventions()) {
+    const double metres_per_unit = reading.convention.metres_per_unit;
+    if (metres_per_unit == 1.0 || motion_m * metres_per_unit >= kLeastMotion_m) readings.push_back(reading);
+  }
+  for (const double units_per_m : kDepthUnitsPerM) {
+    const double factor = facts.depth_units_per_m / units_per_m;
+    const bool is_room = median_depth_m * factor >= kLeastMedianDepth_m && median_depth_m * factor <= kMostMedianDepth_m;
+    if (factor != 1.0 && is_room) readings.push_back({{}, factor});
+  }
+  return readings;
+}
+
+void check_poses(const Pairs& pairs, const RecordingFacts& facts, RecordingCheck& check) {
   constexpr double kTie = 0.002;  // the likelier reading wins
-  check.num_pose_pairs = static_cast<int>(pairs.size());
-  if (pairs.empty()) return;
+  check.num_pose_pairs = static_cast<int>(pairs.frames.size());
+  if (pairs.frames.empty()) return;
   const Intrinsics& camera = facts.calibration.depth;
-  const io::Agreement as_read = io::pose_agreement(pairs, camera, {});
-  check.pose_agreement = as_read.fraction;
-  if (as_read.fraction >= kGoodAgreement) return;
-  const io::Reading* best = nullptr;
+  const io::Agreement as_read = io::pose_agreement(pairs.frames, camera, {});
+  check.pose_agreement = as_read.seen >= kHardlySeen ? as_read.fraction : 0.0;
+  if (as_read.fraction >= kGoodAgreement && as_read.seen >= kLeastSeen) {
+    check.poses_fit = pairs.baseline_m >= kTellingBaseline * check.median_depth_m;
+    return;
+  }
+  io::Reading best;
   io::Agreement best_agreement;
-  for (const io::Reading& reading : io::other_readings()) {
-    const io::Agreement agreement = io::pose_agreement(pairs, camera, reading);
+  for (const io::Reading& reading : other_readings(facts, pairs.motion_m, check.median_depth_m)) {
+    const io::Agreement agreement = io::pose_agreement(pairs.frames, camera, reading);
     if (agreement.score <= best_agreement.score + kTie) continue;
     best_agreement = agreement;
-    best = &reading;
+    best = reading;
   }
-  const bool by_far = best != nullptr && 1.0 - best_agreement.fraction < kByFar * (1.0 - as_read.fraction) &&
+  const bool by_far = best_agreement.fraction >= kLeastOfBetter && 1.0 - best_agreement.fraction < kByFar * (1.0 - check.pose_agreement) &&
                       best_agreement.score > as_read.score + kLeastGain;
   if (!by_far) return;
   check.better_agreement = best_agreement.fraction;
-  if (best->depth_factor != 1.0) check.better_depth_units_per_m = facts.depth_units_per_m / best->depth_factor;
-  if (best->convention != io::PoseConvention{}) check.better_convention = to_string(best->convention);
+  if (best.depth_factor != 1.0) check.better_depth_units_per_m = facts.depth_units_per_m / best.depth_factor;
+  if (best.convention != io::PoseConvention{}) check.better_convention = to_string(best.convention);
 }
 
 std::string depth_text(const RecordingFacts& facts, const RecordingCheck& check) {
@@ -161,7 +169,7 @@ double plausible_unit(const RecordingFacts& facts, double median_depth_m) {
   constexpr double kTypical_m = 2.0;
   double best = 0.0;
   double best_ratio = 2.5;  // of the median to that of a typical room, or inverse
-  for (const double units_per_m : {1000.0, 5000.0, 1.0, 100.0, 10000.0, 256.0, 6553.5}) {
+  for (const double units_per_m : kDepthUnitsPerM) {
     const double median_m = median_depth_m * facts.depth_units_per_m / units_per_m;
     const double ratio = std::max(median_m / kTypical_m, kTypical_m / median_m);
     if (ratio >= best_ratio) continue;
@@ -188,9 +196,10 @@ void warn_of_depth(const RecordingFacts& facts, RecordingCheck& check) {
   if (check.valid_fraction == 0.0) return;
   const bool unlikely = is_unlikely(check);
   double unit = check.better_depth_units_per_m;
-  if (unit == 0.0 && unlikely) unit = plausible_unit(facts, check.median_depth_m);
+  if (unit == 0.0 && unlikely && !check.poses_fit) unit = plausible_unit(facts, check.median_depth_m);
   if (!unlikely && unit == 0.0) return;
   std::string text = subject + "the unit of depth looks wrong: " + depth_text(facts, check);
+  if (check.poses_fit) text += "; yet its poses fit";
   if (unit != 0.0) text += try_unit(unit, check.median_depth_m * facts.depth_units_per_m / unit);
   if (check.better_depth_units_per_m != 0.0) {
     text += ", and " + percent(check.better_agreement) + " instead of " + percent(check.pose_agreement) +
@@ -205,9 +214,9 @@ void warn_of_poses(const RecordingFacts& facts, RecordingCheck& check) {
       facts.folder + ": only " + percent(check.pose_agreement) + " of the depth agrees between frames, by their poses";
   if (!check.better_convention.empty() && facts.pose_convention == "as-is") {
     check.warnings.push_back(subject + "; " + percent(check.better_agreement) + " would with --pose-convention " + check.better_convention);
-  } else if (check.pose_agreement < kHopelessAgreement) {
-    check.warnings.push_back(subject + " (read as " + facts.pose_convention +
-                             "); convention of poses, intrinsics or unit of depth may be wrong");
+  } else if (check.pose_agreement < kDoubtfulAgreement) {
+    const std::string convention = facts.pose_convention == "as-is" ? "" : " (read as " + facts.pose_convention + ")";
+    check.warnings.push_back(subject + convention + "; convention of poses, intrinsics or unit of depth may be wrong");
   }
 }
 
@@ -215,8 +224,8 @@ void warn_of_poses(const RecordingFacts& facts, RecordingCheck& check) {
 
 RecordingCheck check_recording(const Recording& recording) {
   RecordingCheck check;
-  DepthStatistics statistics;
-  const std::vector<FramePair> pairs = collect_pairs(recording, statistics);
+  io::DepthStatistics statistics;
+  const Pairs pairs = collect_pairs(recording, statistics, check);
   statistics.finish(check);
   check_poses(pairs, recording.facts(), check);
   warn_of_depth(recording.facts(), check);

@@ -18,14 +18,19 @@ inline constexpr double kMostMedianDepth_m = 5.0;
 /// What a few frames, spread over a recording, look like.
 struct RecordingCheck {
   int num_depth_frames = 0;      ///< looked at for depth
+  int num_unreadable = 0;        ///< of those that were to be looked at, those whose depth cannot be read
+  std::string first_error;       ///< why the first of them cannot
   double valid_fraction = 0.0;   ///< of their pixels, those with depth
   double median_depth_m = 0.0;   ///< 0 without any
   double within_fraction = 0.0;  ///< of their depths, those between kLeastMedianDepth_m and kMostMedianDepth_m
 
   /// Pairs of frames, some motion apart, whose depth was projected into one another with the recording's poses.
   int num_pose_pairs = 0;
-  /// Of the points that should be seen in the other frame, those that are, at their depth to 3 %; 1 for perfect poses of a still scene.
+  /// Of the points that should be seen in the other frame, those that are, at their depth to 2 cm and 2 %; 1 for perfect poses of a still
+  /// scene.
   double pose_agreement = 0.0;
+  /// True if they agree well, and the camera moved enough for it to mean that depth and positions have one unit.
+  bool poses_fit = false;
   /// The convention under which more agree by far, as SequenceOptions::pose_convention has it; empty if there is none.
   std::string better_convention;
   /// The unit of depth under which more agree by far; 0 if there is none.
