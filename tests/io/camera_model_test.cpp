@@ -26,6 +26,7 @@ TEST_CASE("parse_camera: reads every way in which people write intrinsics down")
       as<std::string>{},  //
       "500.5 0 320.25\n0 501 240\n0 0 1\n", "500.5 0 320.25 0\n0 501 240 0\n0 0 1 0\n", "500.5 0 320.25 0\n0 501 240 0\n0 0 1 0\n0 0 0 1\n",
       "500.5 501 320.25 240", "# fx fy cx cy\n500.5 501 320.25 240\n", "[[500.5, 0, 320.25], [0, 501, 240], [0, 0, 1]]",
+      "[500.5, 0, 320.25; 0, 501, 240; 0, 0, 1]", "500.5\t0\t320.25\n0\t501\t240\n0\t0\t1\n", "500,5\t501\t320,25\t240\n",
       "500.5 501 320.25 240 0 0 0 0 0", "500.5 501 320.25 240 640 480", "640 480 500.5 501 320.25 240",
       R"({"width": 640, "height": 480, "intrinsic_matrix": [500.5, 0, 0, 0, 501, 0, 320.25, 240, 1]})",
       R"({"camera": {"w": 640, "h": 480, "fx": 500.5, "fy": 501, "cx": 320.25, "cy": 240, "scale": 6553.5}})",
@@ -33,6 +34,7 @@ TEST_CASE("parse_camera: reads every way in which people write intrinsics down")
       "%YAML:1.0\nCamera.fx: 500.5\nCamera.fy: 501\nCamera.cx: 320.25\nCamera.cy: 240\nCamera.width: 640\n",
       "%YAML:1.0\n---\ncamera_matrix: !!opencv-matrix\n  rows: 3\n  cols: 3\n  dt: d\n  data: [ 500.5, 0., 320.25, 0., 501., 240., "
       "0., 0., 1. ]\n",
+      "cam0:\n  intrinsics: [500.5, 501, 320.25, 240]\n  resolution: [640, 480]\n",
       "image_width: 640\nimage_height: 480\nK: [500.5, 0.0, 320.25, 0.0, 501.0, 240.0, 0.0, 0.0, 1.0]\nD: [0, 0, 0, 0, 0]\n",
       "m_depthWidth = 640\nm_depthHeight = 480\nm_calibrationColorIntrinsic = 1 0 2 0 0 3 4 0 0 0 1 0 0 0 0 1\n"
       "m_calibrationDepthIntrinsic = 500.5 0 320.25 0 0 501 240 0 0 0 1 0 0 0 0 1\n");
@@ -42,6 +44,25 @@ TEST_CASE("parse_camera: reads every way in which people write intrinsics down")
   CHECK_FALSE(content.camera.distortion.any());
   const ImageSize& size = content.camera.size;
   CHECK((size.empty() || size == ImageSize{640, 480}));
+}
+
+TEST_CASE("parse_camera: of two cameras in a file, each is told by the name above it") {
+  const std::string colour =
+      R"("color_intrinsics": {"width": 1280, "height": 720, "fx": 900, "fy": 901, "ppx": 640, "ppy": 360, "k1": 0.1})";
+  const std::string depth = R"("depth_intrinsics": {"width": 640, "height": 480, "fx": 500.5, "fy": 501, "ppx": 320.25, "ppy": 240})";
+  const std::string text = GENERATE_COPY(as<std::string>{}, "{" + colour + ",\n" + depth + "}", "{" + depth + ",\n" + colour + "}",
+                                         "{\"name\": \"camera_color_frame\", " + depth + ",\n" + colour + "}");
+  CAPTURE(text);
+  const CameraFile of_depth = parse_camera(plain_text(text), "k.json");
+  check_intrinsics(of_depth.camera.intrinsics);
+  CHECK(of_depth.has_both);
+  CHECK(of_depth.camera.size == ImageSize{640, 480});
+  CHECK_FALSE(of_depth.camera.distortion.any());
+  const CameraFile of_colour = parse_camera(plain_text(text), "k.json", CameraKind::kColour);
+  CHECK(of_colour.camera.intrinsics.fy == 901.0F);
+  CHECK(of_colour.camera.size == ImageSize{1280, 720});
+  CHECK(of_colour.camera.distortion.any());
+  CHECK_FALSE(parse_camera(R"({"frame": "camera_depth_frame", "fx": 5, "fy": 5, "cx": 3, "cy": 2})", "k.json").has_both);
 }
 
 TEST_CASE("parse_camera: takes distortion from behind the intrinsics, and from names") {

@@ -42,7 +42,7 @@ TEST_CASE("open_sequence: finds intrinsics where people put them, and says which
   write_room_as_seven_scenes(folder, without_intrinsics());
   const std::string place =
       GENERATE(as<std::string>{}, "camera-intrinsics.txt", "../camera-intrinsics.txt", "intrinsic/intrinsic_depth.txt",
-               "../calibration/depth_intrinsics.txt", "K.txt", "../calib.txt", "intrinsics.csv");
+               "../calibration/depth_intrinsics.txt", "K.txt", "../calib.txt", "intrinsics.csv", "ost.yaml", "../cam0.yaml");
   CAPTURE(place);
   fs::create_directories(fs::path(folder + "/" + place).parent_path());
   write_text(folder + "/" + place, room_intrinsics_text());
@@ -122,8 +122,21 @@ TEST_CASE("open_sequence: intrinsics that are given win over every file, and may
   write_text(temp / "mine.txt", "150 150 80 60");
   CHECK(open_sequence(temp / "scene", Context(), with_intrinsics("151, 152, 80, 60"))->load(0).calibration.depth.fy == 152.0F);
   CHECK(open_sequence(temp / "scene", Context(), with_intrinsics(temp / "mine.txt"))->load(0).calibration.depth.fx == 150.0F);
+  CHECK_THAT(open_error(temp / "scene", with_intrinsics("585,585,320,240")), Contains("intrinsics that were given") && Contains("320 240"));
   CHECK_THAT(open_error(temp / "scene", with_intrinsics("1,2,3")), Contains("1,2,3") && Contains("3 numbers"));
   CHECK_THAT(open_error(temp / "scene", with_intrinsics(temp / "absent.txt")), Contains("absent.txt") && Contains("no such file"));
+}
+
+TEST_CASE("open_sequence: a file of both cameras gives each its own") {
+  const TempFolder temp;
+  write_room_as_seven_scenes(temp.path(), without_intrinsics());
+  write_text(temp / "calibration.json", R"({"color": {"width": 320, "height": 240, "fx": 300, "fy": 300, "cx": 160, "cy": 120},
+                                            "depth": {"width": 160, "height": 120, "fx": 146.25, "fy": 146.25, "cx": 79.625, "cy": 59.625}})");
+  SequenceOptions as_recorded;
+  as_recorded.register_colour = false;
+  const RgbdCalibration read = open_sequence(temp.path(), Context(), as_recorded)->load(0).calibration;
+  CHECK(read.depth.fx == room_fx());
+  CHECK(read.colour.fx == 150.0F);  // its images have half the size of the camera's
 }
 
 TEST_CASE("open_sequence: colour of another size is registered to depth, by its own intrinsics or those of depth") {

@@ -182,6 +182,34 @@ TEST_CASE("open_sequence: rotations are made orthonormal") {
   CHECK(is_rigid(*open_sequence(temp.path(), Context())->load(1).world_from_camera, 1e-6F));
 }
 
+TEST_CASE("open_sequence: a pose in brackets is read, as numerical programs print it") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 2);
+  write_text(temp / kPose, GENERATE(as<std::string>{}, "[[ 1.  0.  0.  5.]\n [ 0.  1.  0.  6.]\n [ 0.  0.  1.  7.]\n [ 0.  0.  0.  1.]]\n",
+                                    "[1, 0, 0, 5; 0, 1, 0, 6; 0, 0, 1, 7; 0, 0, 0, 1]"));
+  CHECK(open_sequence(temp.path(), Context())->load(1).world_from_camera->translation == Eigen::Vector3f(5.0F, 6.0F, 7.0F));
+}
+
+TEST_CASE("open_sequence: poses that are all lost are warned of") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 2);
+  write_text(temp / "frame-000000.pose.txt", "");
+  write_text(temp / "frame-000001.pose.txt", pose_text("nan"));
+  LoggingContext log;
+  CHECK_FALSE(open_sequence(temp.path(), log.context)->load(1).world_from_camera.has_value());
+  CHECK_THAT(log.warnings, Contains("none of its 2 frames has a pose"));
+}
+
+TEST_CASE("open_sequence: a pose that was written column by column is read so") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 2);
+  write_text(temp / kPose, "0 1 0 0\n-1 0 0 0\n0 0 1 0\n5 6 7 1\n");
+  const SE3 pose = *open_sequence(temp.path(), Context())->load(1).world_from_camera;
+  CHECK(pose.translation == Eigen::Vector3f(5.0F, 6.0F, 7.0F));
+  CHECK(pose.rotation(0, 1) == -1.0F);
+  CHECK(pose.rotation(1, 0) == 1.0F);
+}
+
 TEST_CASE("open_sequence: each thing missing from a 7-Scenes folder is named") {
   const TempFolder temp;
   write_small_recording(temp.path(), 3);

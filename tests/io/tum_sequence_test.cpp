@@ -97,6 +97,17 @@ TEST_CASE("open_sequence: TUM frames without ground truth, or where it was lost,
   CHECK_THAT(log.warnings, Contains("1 of its 3 frames have no pose"));
 }
 
+TEST_CASE("open_sequence: ground truth that was lost throughout leaves frames without poses, with a warning") {
+  const TempFolder temp;
+  write_tum_recording(temp.path());
+  write_text(temp / "groundtruth.txt", "0.9 nan nan nan nan nan nan nan\n1.05 0 0 0 0 0 0 0\n1.3 nan nan nan nan nan nan nan\n");
+  LoggingContext log;
+  CHECK_FALSE(open_sequence(temp.path(), log.context)->load(0).world_from_camera.has_value());
+  CHECK_THAT(log.warnings, Contains("none of its 3 frames has a pose"));
+  write_text(temp / "groundtruth.txt", "0.5 0 0 0 0 0 0 1\n1.8 0 0 0 0 0 0 1\n");
+  CHECK_THAT(open_error(temp.path()), Contains("no pose within 0.1 s"));
+}
+
 TEST_CASE("open_sequence: a TUM folder without ground truth has frames without poses") {
   const TempFolder temp;
   write_tum_recording(temp.path());
@@ -134,7 +145,11 @@ TEST_CASE("open_sequence: each thing wrong with a TUM folder is named") {
     CHECK_THAT(breaks("depth.txt", "9.0 depth/0.png\n9.1 depth/1.png\n"),
                Contains("20 ms") && Contains("9.000000") && Contains("1.205000") && Contains("seconds"));
   }
+  SECTION("decimal commas between blanks") {
+    CHECK_THAT(breaks("rgb.txt", "1,005 rgb/0.png\n"), Contains("'1,005'") && Contains("decimal point"));
+  }
   SECTION("images outside the folder") {
+    CHECK_THAT(breaks("rgb.txt", "1.0 ..\\elsewhere\\0.png\n"), Contains("'../elsewhere/0.png'"));
     CHECK_THAT(breaks("rgb.txt", "1.0 ../elsewhere/0.png\n"), Contains("'../elsewhere/0.png'") && Contains("line 1"));
     CHECK_THAT(breaks("rgb.txt", "1.0 /elsewhere/0.png\n"), Contains("'/elsewhere/0.png'"));
   }
@@ -158,6 +173,12 @@ TEST_CASE("open_sequence: a TUM list by Windows, a spreadsheet or a logger reads
     for (const char c : plain) wide += {c, '\0'};
     rewrite("depth.txt", wide);
   }
+  SECTION("UTF-16 without a byte-order mark, and lines that are there twice") {
+    const std::string plain = "sec file\n1.0 depth/0.png\n1.0 depth/0.png\n1.1 depth/1.png\n1.2 depth/2.png\n1.2 depth/2.png\n";
+    std::string wide;
+    for (const char c : plain) wide += {c, '\0'};
+    rewrite("depth.txt", wide);
+  }
   SECTION("old line ends") { rewrite("rgb.txt", "# colour\r1.005 rgb/0.png\r1.105 rgb/1.png\r1.205 rgb/2.png\r"); }
   SECTION("comma-separated, with a heading and quotes") {
     rewrite("rgb.txt", "timestamp,filename\n1.005,\"rgb/0.png\"\n1.105,\"rgb/1.png\"\n1.205,\"rgb/2.png\"\n");
@@ -168,6 +189,23 @@ TEST_CASE("open_sequence: a TUM list by Windows, a spreadsheet or a logger reads
   SECTION("semicolons and decimal commas") {
     rewrite("groundtruth.txt",
             "0,96;0,96;0;0;0;0;0;1\n1,04;1,04;0;0;0;0;0;1\n1,08;1,08;0;0;0;0;0;1\n1,14;1,14;0;0;0;0;0;1\n1,22;1,22;0;0;0;0;0;1\n");
+  }
+  SECTION("tabs and decimal commas") {
+    rewrite("depth.txt", "1,0\tdepth/0.png\n1,1\tdepth/1.png\n1,2\tdepth/2.png\n");
+    rewrite("groundtruth.txt",
+            "0,96\t0,96\t0\t0\t0\t0\t0\t1\n1,04\t1,04\t0\t0\t0\t0\t0\t1\n1,08\t1,08\t0\t0\t0\t0\t0\t1\n1,14\t1,14\t0\t0\t0\t0\t0\t1\n"
+            "1,22\t1,22\t0\t0\t0\t0\t0\t1\n");
+  }
+  SECTION("Windows' separators of folders") { rewrite("rgb.txt", "1.005 rgb\\0.png\n1.105 .\\rgb\\1.png\n1.205 rgb\\2.png\n"); }
+  SECTION("associations, in milliseconds") {
+    fs::remove(temp / "rgb.txt");
+    fs::remove(temp / "depth.txt");
+    rewrite("associations.txt", "1005 rgb/0.png 1000 depth/0.png\n1105 rgb/1.png 1100 depth/1.png\n1205 rgb/2.png 1200 depth/2.png\n");
+  }
+  SECTION("ground truth in milliseconds, from long before the recording") {
+    std::string truth = "0 0 0 0 0 0 0 1\n";
+    for (int ms = 8; ms < 1300; ms += 8) truth += std::to_string(ms) + " " + std::to_string(0.001 * ms) + " 0 0 0 0 0 1\n";
+    rewrite("groundtruth.txt", truth);
   }
   SECTION("milliseconds") {
     rewrite("rgb.txt", "1005 rgb/0.png\n1105 rgb/1.png\n1205 rgb/2.png\n");

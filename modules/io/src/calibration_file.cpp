@@ -17,6 +17,7 @@ namespace fs = std::filesystem;
 constexpr Intrinsics kSevenScenesDepth{585.0F, 585.0F, 320.0F, 240.0F};
 constexpr Intrinsics kSevenScenesColour{525.0F, 525.0F, 320.0F, 240.0F};
 constexpr ImageSize kVga{640, 480};
+constexpr const char* kGiven = "as given";  // the source of intrinsics that are no file's
 
 /// Where the Kinect of 7-Scenes has its colour camera, found by letting edges of depth meet edges of colour: docs/sequences.md.
 SE3 seven_scenes_depth_from_colour() {
@@ -48,7 +49,7 @@ NamedCamera given_camera(const std::string& text) {
     return {content.camera, text, content.depth_units_per_m};
   }
   try {
-    return {parse_camera(plain_text(text), "intrinsics '" + text + "'").camera, "as given", std::nullopt};
+    return {parse_camera(plain_text(text), "intrinsics '" + text + "'").camera, kGiven, std::nullopt};
   } catch (const FileError& error) {
     throw InvalidSettings(error.what());
   }
@@ -84,7 +85,7 @@ void fit(NamedCamera& named, const ImageSize& size) {
   }
   const std::string impossible = describe_impossible(camera.intrinsics, size);
   if (!impossible.empty()) {
-    throw_file_error(named.source, impossible,
+    throw_file_error(named.source == kGiven ? "intrinsics that were given" : named.source, impossible,
                      "those of its images of " + to_string(size) + "; the right ones can be given as fx,fy,cx,cy (--intrinsics)");
   }
   camera.size = size;

@@ -77,18 +77,13 @@ CameraModel camera_of_numbers(const std::vector<double>& n, const fs::path& file
                    "a camera: a 3x3 or 4x4 matrix, or fx fy cx cy with 0, 4, 5 or 8 coefficients of distortion behind");
 }
 
-/// A text without its comments and brackets.
-std::string bare_numbers(std::string_view text) {
-  std::string bare;
-  bool in_comment = false;
-  for (const char c : text) {
-    in_comment = c == '#' || (in_comment && c != '\n');
-    bare += in_comment || c == '[' || c == ']' || c == '(' || c == ')' ? ' ' : c;
-  }
-  return bare;
-}
-
 using Keys = std::vector<KeyedNumbers>;
+
+/// What a file of both cameras tells of one of them.
+Keys part_of(const Keys& all, CameraKind kind) {
+  return kind == CameraKind::kDepth ? section(all, {"depth"}, {"color", "colour", "rgb"})
+                                    : section(all, {"color", "colour", "rgb"}, {"depth"});
+}
 
 /// A scalar of a keyed file; `missing` if it is not there.
 double scalar(const Keys& all, std::initializer_list<std::string_view> keys, double missing = 0.0) {
@@ -145,8 +140,10 @@ ImageSize keyed_size(const Keys& all, CameraKind kind) {
   const bool depth = kind == CameraKind::kDepth;
   const double width = scalar(all, {depth ? "mdepthwidth" : "mcolorwidth", "width", "imagewidth", "w"});
   const double height = scalar(all, {depth ? "mdepthheight" : "mcolorheight", "height", "imageheight", "h"});
-  const bool sane = width >= 1.0 && width <= 1e5 && height >= 1.0 && height <= 1e5;
-  return sane ? ImageSize{static_cast<int>(width), static_cast<int>(height)} : ImageSize{};
+  std::vector<double> size = find_numbers(all, {"resolution", "imagesize", "size"}, 2);
+  if (size.empty()) size = {width, height};
+  const bool sane = std::all_of(size.begin(), size.end(), [](double side) { return side >= 1.0 && side <= 1e5; });
+  return sane ? ImageSize{static_cast<int>(size[0]), static_cast<int>(size[1])} : ImageSize{};
 }
 
 /// Units per metre, from a value that may be metres per unit. Numbers near 1 mean something else.
@@ -171,11 +168,12 @@ CameraFile parse_camera(std::string_view text, const fs::path& file, CameraKind 
     for (const std::string_view word : split_words(bare)) {
       numbers.push_back(parse_number(word, file, "entry " + std::to_string(numbers.size() + 1) + " of a camera"));
     }
-    CameraModel camera = camera_of_numbers(numbers, file);
-    return {camera, std::nullopt};
+    return {camera_of_numbers(numbers, file), std::nullopt, false};
   }
   const Keys all = parse_keyed_numbers(text);
-  return {{keyed_intrinsics(all, kind, file), keyed_distortion(all, text, file), keyed_size(all, kind)}, keyed_depth_scale(all)};
+  const Keys own = part_of(all, kind);
+  const bool has_both = own.size() < all.size() || !find_numbers(all, {"mcalibrationcolorintrinsic"}, 16).empty();
+  return {{keyed_intrinsics(own, kind, file), keyed_distortion(own, text, file), keyed_size(own, kind)}, keyed_depth_scale(all), has_both};
 }
 
 CameraModel resized(const CameraModel& camera, const ImageSize& size) {

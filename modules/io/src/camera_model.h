@@ -38,11 +38,13 @@ enum class CameraKind { kDepth, kColour };
 struct CameraFile {
   CameraModel camera;
   std::optional<double> depth_units_per_m;  ///< where the file tells
+  bool has_both = false;                    ///< it tells of a depth and of a colour camera, by their names
 };
 
 /// Parses intrinsics as people write them down: a 3x3, 3x4 or 4x4 matrix; fx fy cx cy, alone, with 4, 5 or 8 coefficients of distortion
 /// behind, or with width and height; or keys with numbers as in Open3D's and NICE-SLAM's JSON, OpenCV's and ROS's YAML, and BundleFusion's
-/// info.txt. @param kind  whose numbers to take, where the file has both cameras'. @throws FileError
+/// info.txt. @param kind  whose numbers to take, where the file has both cameras', under names with "depth" and "color" or "rgb".
+/// @throws FileError
 CameraFile parse_camera(std::string_view text, const std::filesystem::path& file, CameraKind kind = CameraKind::kDepth);
 
 /// The same camera with images of another size. @pre The camera's size is not empty.

@@ -21,6 +21,7 @@ struct Candidate {
   int rank = 0;  ///< of what its name promises
   fs::path file;
   bool certain = false;
+  bool must_have_both = false;  ///< its name does not tell the camera that is looked for
   bool operator<(const Candidate& other) const { return std::tie(rank, file) < std::tie(other.rank, other.file); }
 };
 
@@ -39,7 +40,8 @@ std::string plain_stem(const fs::path& file) {
 }
 
 std::optional<Candidate> judge(const fs::path& file, CameraKind kind, bool strictly) {
-  constexpr std::array<const char*, 6> kAmbiguous{"info", "camera", "cam", "k", "camera-params", "metadata"};
+  constexpr std::array<const char*, 10> kAmbiguous{"info",     "camera", "cam",  "k",        "camera-params",
+                                                   "metadata", "ost",    "cam0", "camchain", "sensor"};
   const std::string stem = plain_stem(file);
   const bool certain =
       contains(stem, {"intrins", "camera-matrix", "camera-info", "camera-primesense", "cam-params"}) || stem.rfind("calib", 0) == 0;
@@ -49,10 +51,9 @@ std::optional<Candidate> judge(const fs::path& file, CameraKind kind, bool stric
   const bool names_depth = contains(stem, {"depth"});
   const bool own = kind == CameraKind::kDepth ? names_depth : names_colour;
   const bool other = kind == CameraKind::kDepth ? names_colour : names_depth;
-  const bool both = stem == "info";
-  if (strictly && (other || (kind == CameraKind::kColour && !own && !both))) return std::nullopt;
+  if (strictly && other) return std::nullopt;
   const int rank = own ? 0 : stem == "camera-intrinsics" ? 1 : ambiguous ? 3 : other ? 4 : 2;
-  return Candidate{rank, file, certain};
+  return Candidate{rank, file, certain, strictly && kind == CameraKind::kColour && !own};
 }
 
 std::vector<Candidate> candidates_in(const fs::path& folder, CameraKind kind, bool strictly) {
@@ -77,9 +78,10 @@ std::optional<FoundCamera> find_camera(const fs::path& folder, CameraKind kind, 
   for (const fs::path& place : {folder, parent}) {
     for (const Candidate& candidate : candidates_in(place, kind, strictly)) {
       try {
-        return FoundCamera{candidate.file, parse_camera(read_text(candidate.file, kMaxNumbersFileBytes), candidate.file, kind)};
+        const CameraFile content = parse_camera(read_text(candidate.file, kMaxNumbersFileBytes), candidate.file, kind);
+        if (content.has_both || !candidate.must_have_both) return FoundCamera{candidate.file, content};
       } catch (const FileError&) {
-        if (candidate.certain) throw;
+        if (candidate.certain && !candidate.must_have_both) throw;
       }
     }
   }

@@ -29,18 +29,21 @@ struct Sourced {
   std::string source;
 };
 
+/// Units per metre, of what may be metres per unit: no depth camera counts longer units than metres.
+double units_per_m(double value) { return value > 0.0 && value < 1.0 ? 1.0 / value : value; }
+
 Sourced<double> depth_unit(const FoundRecording& found, const RecordingCalibration& calibration, const SequenceOptions& options) {
   if (options.depth_units_per_m != 0.0) {
     if (!(options.depth_units_per_m > 0.0 && options.depth_units_per_m <= 1e6)) {
       throw InvalidSettings("depth scale: got " + numbers_text(&options.depth_units_per_m, 1) + ", expected depth units per metre, to 1e6");
     }
-    return {options.depth_units_per_m, "as given"};
+    return {units_per_m(options.depth_units_per_m), "as given"};
   }
   const fs::path file = found.folder / "depth-scale.txt";
   if (fs::exists(file)) {
     const double value = parse_numbers(read_text(file, kMaxNumbersFileBytes), 1, file, "number of depth units per metre").front();
     if (!(value > 0.0 && value <= 1e6)) throw_file_error(file, numbers_text(&value, 1), "depth units per metre, to 1e6");
-    return {value, file.filename().string()};
+    return {units_per_m(value), file.filename().string()};
   }
   if (calibration.depth_units_per_m.has_value()) return {*calibration.depth_units_per_m, "beside the intrinsics"};
   return {found.depth_units_per_m, found.depth_unit_source.empty() ? "as in all of this layout" : found.depth_unit_source};
@@ -183,10 +186,15 @@ std::string describe(const RecordingFacts& facts, const ImageSize& depth_size) {
   return text;
 }
 
-void warn_of_missing_poses(const RecordingFacts& facts, const Context& context) {
+void warn_of_missing_poses(const RecordingFacts& facts, bool tells_poses, const Context& context) {
   const auto& poses = facts.world_from_camera;
   const auto num_missing = std::count_if(poses.begin(), poses.end(), [](const std::optional<SE3>& pose) { return !pose.has_value(); });
-  if (num_missing == 0 || num_missing == static_cast<std::ptrdiff_t>(poses.size())) return;
+  if (num_missing == 0 || !tells_poses) return;
+  if (num_missing == static_cast<std::ptrdiff_t>(poses.size())) {
+    context.log(LogLevel::kWarning,
+                facts.folder + ": none of its " + std::to_string(poses.size()) + " frames has a pose: tracking was lost in all");
+    return;
+  }
   const auto first = std::find_if(poses.begin(), poses.end(), [](const std::optional<SE3>& pose) { return !pose.has_value(); });
   context.log(LogLevel::kWarning, facts.folder + ": " + std::to_string(num_missing) + " of its " + std::to_string(poses.size()) +
                                       " frames have no pose, the first of them frame " + std::to_string(first - poses.begin()));
@@ -198,10 +206,11 @@ std::shared_ptr<Recording> make_recording(FoundRecording found, const Context& c
   const ImageSize depth_size = size_of(found.frames.front().depth, found.raw_depth_size);
   const ImageSize colour_size = size_of(found.frames.front().colour, found.raw_colour_size);
   const RecordingCalibration calibration = find_calibration(found.folder, found.calibration, depth_size, colour_size, options);
+  const bool tells_poses = found.tells_poses;
   auto recording = std::make_shared<FolderRecording>(std::move(found), options, calibration);
   context.log(LogLevel::kInfo, describe(recording->facts(), depth_size));
   if (!calibration.warning.empty()) context.log(LogLevel::kWarning, calibration.warning);
-  warn_of_missing_poses(recording->facts(), context);
+  warn_of_missing_poses(recording->facts(), tells_poses, context);
   if (!options.check) return recording;
   for (const std::string& warning : check_recording(*recording).warnings) context.log(LogLevel::kWarning, warning);
   return recording;

@@ -43,6 +43,7 @@ struct FoundRecording {
   std::string layout;
   std::filesystem::path folder;
   std::vector<RecordedFrame> frames;  ///< at least one
+  bool tells_poses = false;           ///< it has files or lists of poses, even if tracking was lost in every frame
   double depth_units_per_m = 1000.0;
   std::string depth_unit_source;  ///< empty for the layout's own
   PoseConvention pose_convention;

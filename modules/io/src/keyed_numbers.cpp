@@ -35,6 +35,29 @@ std::string matrix_name(const std::vector<KeyedNumbers>& before) {
   return named == before.rend() ? "data" : named->key;
 }
 
+using Words = std::initializer_list<std::string_view>;
+
+bool mentions(const std::string& key, Words words) {
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return key.find(word) != std::string::npos; });
+}
+
+/// One of the two parts that section() tells of; empty if there is none.
+std::vector<KeyedNumbers> part_about(const std::vector<KeyedNumbers>& all, Words own, Words other) {
+  constexpr std::size_t kLeastNumbers = 4;
+  const auto is_heading = [](const KeyedNumbers& entry, Words words, Words others) {
+    return entry.numbers.empty() && mentions(entry.key, words) && !mentions(entry.key, others);
+  };
+  for (auto begin = all.begin(); begin != all.end(); ++begin) {
+    if (!is_heading(*begin, own, other)) continue;
+    const auto end = std::find_if(begin, all.end(), [&](const KeyedNumbers& entry) { return is_heading(entry, other, own); });
+    std::size_t count = 0;
+    std::for_each(begin, end, [&](const KeyedNumbers& entry) { count += entry.numbers.size(); });
+    if (count >= kLeastNumbers) return {begin, end};
+    begin = end - 1;
+  }
+  return {};
+}
+
 }  // namespace
 
 bool has_keys(std::string_view text) { return text.find_first_of(":={") != std::string_view::npos; }
@@ -68,6 +91,11 @@ std::vector<double> find_numbers(const std::vector<KeyedNumbers>& all, std::init
     if (found != all.end()) return found->numbers;
   }
   return {};
+}
+
+std::vector<KeyedNumbers> section(const std::vector<KeyedNumbers>& all, Words own, Words other) {
+  const std::vector<KeyedNumbers> part = part_about(all, own, other);
+  return part.empty() || part_about(all, other, own).empty() ? all : part;
 }
 
 }  // namespace foothold::io

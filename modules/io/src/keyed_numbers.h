@@ -25,4 +25,9 @@ std::vector<KeyedNumbers> parse_keyed_numbers(std::string_view text);
 /// The numbers of the first of some keys that stands in a text with that many of them; empty if none does.
 std::vector<double> find_numbers(const std::vector<KeyedNumbers>& all, std::initializer_list<std::string_view> keys, std::size_t count);
 
+/// The part of a text that tells of one of two things: from a name without numbers that contains one of the words `own` to the next that
+/// contains one of `other`. Everything if the text has no such part of each with at least four numbers.
+std::vector<KeyedNumbers> section(const std::vector<KeyedNumbers>& all, std::initializer_list<std::string_view> own,
+                                  std::initializer_list<std::string_view> other);
+
 }  // namespace foothold::io

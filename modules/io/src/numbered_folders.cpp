@@ -103,6 +103,7 @@ FoundRecording read_numbered_folders(const fs::path& folder, const Context& cont
                                 numbered_files(colour_folder(folder), "", {".png", ".jpg", ".jpeg"}), folder, context, numbers);
   const fs::path poses = first_folder(folder, {"pose", "poses"});
   const fs::path list = find_pose_list(folder);
+  found.tells_poses = !poses.empty() || !list.empty();
   if (!poses.empty()) {
     add_pose_files(poses, numbers, found.frames);
   } else if (!list.empty()) {

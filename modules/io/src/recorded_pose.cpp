@@ -22,7 +22,8 @@ bool all_finite(const double* begin, std::size_t count) {
 /// The numbers of a file, of which some may be NaN or infinite as "nan", "-inf" or "-1.#IND". @throws FileError for anything else.
 std::vector<double> parse_lenient_numbers(std::string_view text, const std::filesystem::path& file) {
   std::vector<double> numbers;
-  for (const std::string_view word : split_words(text)) {
+  const std::string bare = bare_numbers(text);
+  for (const std::string_view word : split_words(bare)) {
     numbers.push_back(is_not_finite(word) ? std::numeric_limits<double>::quiet_NaN()
                                           : parse_number(word, file, "entry " + std::to_string(numbers.size() + 1) + " of a 4x4 pose"));
   }
@@ -38,6 +39,14 @@ void check_rotation(const Eigen::Matrix3d& rotation, const std::filesystem::path
   std::ostringstream expected;
   expected << "a rotation: at most " << kRotationTolerance << ", and determinant 1";
   throw_file_error(file, found.str(), expected.str());
+}
+
+/// True for a matrix that was written column by column: its translation stands in the last row.
+bool is_by_columns(const std::vector<double>& n) {
+  const auto is_bottom_row = [&](std::size_t i, std::size_t step) {
+    return n[i] == 0.0 && n[i + step] == 0.0 && n[i + 2 * step] == 0.0 && n[i + 3 * step] == 1.0;
+  };
+  return n.size() == 16 && is_bottom_row(3, 4) && !is_bottom_row(12, 1);
 }
 
 struct Word {
@@ -79,8 +88,10 @@ std::optional<RecordedPose> pose_from_matrix(const std::vector<double>& numbers,
   }
   if (!all_finite(numbers.data(), numbers.size())) return std::nullopt;
   if (std::all_of(numbers.begin(), numbers.begin() + 12, [](double x) { return x == 0.0; })) return std::nullopt;
-  const Eigen::Matrix<double, 3, 4> matrix = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers.data());
-  if (numbers.size() == 16) {
+  const bool by_columns = is_by_columns(numbers);
+  Eigen::Matrix<double, 3, 4> matrix = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(numbers.data());
+  if (by_columns) matrix = Eigen::Map<const Eigen::Matrix4d>(numbers.data()).topRows<3>();
+  if (numbers.size() == 16 && !by_columns) {
     const Eigen::Vector4d last_row(numbers[12], numbers[13], numbers[14], numbers[15]);
     if ((last_row - Eigen::Vector4d(0.0, 0.0, 0.0, 1.0)).cwiseAbs().maxCoeff() > 1e-6) {
       throw_file_error(file, "a last row of " + numbers_text(&numbers[12], 4), "0 0 0 1");

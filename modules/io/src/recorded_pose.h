@@ -25,7 +25,8 @@ inline constexpr double kRotationTolerance = 1e-2;
 /// Positions further than this from the origin are no positions of cameras on Earth.
 inline constexpr double kMaxDistance_m = 1e8;
 
-/// Makes a pose of 16 numbers, a 4x4 matrix row by row, or of the 12 of its first three rows.
+/// Makes a pose of 16 numbers, a 4x4 matrix row by row, or of the 12 of its first three rows. A 4x4 matrix whose last row holds the
+/// translation was written column by column, and is read so.
 /// @return Empty where tracking was lost, as recorders mark it: by a number that is not finite, or by zeros alone.
 /// @throws FileError unless it is a rotation to within kRotationTolerance, a position within kMaxDistance_m, and a last row of 0 0 0 1.
 std::optional<RecordedPose> pose_from_matrix(const std::vector<double>& numbers, const std::filesystem::path& file);

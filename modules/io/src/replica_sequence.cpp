@@ -27,7 +27,8 @@ FoundRecording read_replica(const fs::path& folder, const Context& context) {
   std::vector<long> numbers;
   found.frames = pair_by_number(numbered_files(folder / "results", "depth", {".png"}),
                                 numbered_files(folder / "results", "frame", {".png", ".jpg"}), folder, context, numbers);
-  if (fs::exists(folder / "traj.txt")) add_pose_list(folder / "traj.txt", found.frames);
+  found.tells_poses = fs::exists(folder / "traj.txt");
+  if (found.tells_poses) add_pose_list(folder / "traj.txt", found.frames);
   found.depth_units_per_m = kDepthUnitsPerM;
   found.calibration.data_set = kReplica;
   found.calibration.data_set_name = "Replica's own";

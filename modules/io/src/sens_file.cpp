@@ -139,6 +139,7 @@ FoundRecording read_sens_file(const fs::path& file) {
   found.folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   found.layout = "ScanNet (.sens)";
   found.frames = std::move(contents.frames);
+  found.tells_poses = true;
   found.depth_units_per_m = contents.depth_units_per_m;
   found.depth_unit_source = file.filename().string();
   found.calibration.depth = contents.depth;

@@ -124,6 +124,7 @@ FoundRecording read_seven_scenes(const fs::path& folder, const Context& context)
     RecordedFrame frame{
         {folder / frame_name(index, files[i].depth_suffix)}, {folder / frame_name(index, files[i].colour_suffix)}, times_s[i], {}};
     const fs::path pose_file = folder / frame_name(index, ".pose.txt");
+    found.tells_poses = found.tells_poses || files[i].pose;
     if (files[i].pose) frame.pose = parse_pose(read_text(pose_file, kMaxNumbersFileBytes), pose_file);
     found.frames.push_back(std::move(frame));
   }

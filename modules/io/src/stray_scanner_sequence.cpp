@@ -48,6 +48,7 @@ FoundRecording read_stray_scanner(const fs::path& folder, const Context& context
   FoundRecording found;
   found.folder = folder;
   found.layout = "Stray Scanner";
+  found.tells_poses = true;
   std::vector<long> numbers;
   found.frames = pair_by_number(numbered_files(folder / "depth", "", {".png"}), numbered_files(folder / "rgb", "", {".png", ".jpg"}),
                                 folder, context, numbers);

@@ -14,11 +14,11 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\r\n\v\f";
 
-/// UTF-16 with a byte-order mark as UTF-8. What is beyond the basic plane is no part of lists of numbers, and becomes '?'.
-std::string from_utf16(std::string_view bytes) {
-  const std::size_t high = bytes[0] == '\xfe' ? 0 : 1;
+/// UTF-16 as UTF-8. What is beyond the basic plane is no part of lists of numbers, and becomes '?'.
+/// @param high  the place of the higher byte: 0 or 1
+std::string from_utf16(std::string_view bytes, std::size_t high) {
   std::string text;
-  for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
     const unsigned unit =
         static_cast<unsigned char>(bytes[i + high]) << 8U | static_cast<unsigned>(static_cast<unsigned char>(bytes[i + 1 - high]));
     if (unit < 0x80) {
@@ -45,10 +45,28 @@ bool is_separated_by(char separator, std::string_view line) {
   return true;
 }
 
+constexpr std::string_view kDigits = "0123456789";
+
+/// True for a number with a comma between its digits and no point, such as "-0,5".
+bool has_decimal_comma(std::string_view word) {
+  const std::size_t comma = word.find(',');
+  if (comma == std::string_view::npos || word.find_first_not_of("0123456789,+-eE") != std::string_view::npos) return false;
+  return word.find_last_of(kDigits, comma) + 1 == comma && word.find_first_of(kDigits, comma) == comma + 1 &&
+         word.find(',', comma + 1) == std::string_view::npos;
+}
+
+/// Turns decimal commas into points in a row that tabs separate.
+void mend_decimal_commas(std::string& text, std::string_view line) {
+  if (line.find('\t') == std::string_view::npos) return;
+  for (const std::string_view word : split_words(line)) {
+    if (has_decimal_comma(word)) text[static_cast<std::size_t>(word.data() - text.data()) + word.find(',')] = '.';
+  }
+}
+
 void separate_by_blanks(std::string& text, std::size_t begin, std::size_t end) {
   const std::string_view line = std::string_view(text).substr(begin, end - begin);
   const char separator = is_separated_by(';', line) ? ';' : is_separated_by(',', line) ? ',' : '\0';
-  if (separator == '\0') return;
+  if (separator == '\0') return mend_decimal_commas(text, line);
   for (std::size_t i = begin; i < end; ++i) {
     if (text[i] == separator || text[i] == '"') {
       text[i] = ' ';
@@ -60,7 +78,8 @@ void separate_by_blanks(std::string& text, std::size_t begin, std::size_t end) {
 
 /// True for the name of a table's first column.
 bool is_heading(std::string_view word) {
-  constexpr std::array<std::string_view, 5> kNames{"time", "stamp", "%time", "frame", "index"};
+  constexpr std::array<std::string_view, 6> kNames{"time", "stamp", "%time", "frame", "index", "sec"};
+  if (word == "t") return true;
   std::string lower(word.substr(0, 16));
   for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   return std::any_of(kNames.begin(), kNames.end(), [&](std::string_view name) { return lower.rfind(name, 0) == 0; });
@@ -74,7 +93,12 @@ std::string plain_text(std::string text) {
   using namespace std::string_view_literals;
   const std::string_view view = text;
   if (view.substr(0, 3) == "\xef\xbb\xbf"sv) text.erase(0, 3);
-  if (view.substr(0, 2) == "\xff\xfe"sv || view.substr(0, 2) == "\xfe\xff"sv) text = from_utf16(view);
+  const auto has_zeros_at = [&](std::size_t i) { return view.size() > 3 && view[i] == '\0' && view[i + 2] == '\0'; };
+  if (view.substr(0, 2) == "\xff\xfe"sv || view.substr(0, 2) == "\xfe\xff"sv) {
+    text = from_utf16(view.substr(2), view[0] == '\xfe' ? 0 : 1);
+  } else if (has_zeros_at(0) != has_zeros_at(1)) {  // UTF-16 without a mark
+    text = from_utf16(view, has_zeros_at(0) ? 0 : 1);
+  }
   for (std::size_t i = 0; i < text.size(); ++i) {
     if (text[i] == '\r') text[i] = i + 1 < text.size() && text[i + 1] == '\n' ? ' ' : '\n';
   }
@@ -84,6 +108,25 @@ std::string plain_text(std::string text) {
     begin = end + 1;
   }
   return text;
+}
+
+std::string bare_numbers(std::string_view text) {
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  std::string bare;
+  bool in_comment = false;
+  bool in_word = false;  // between the parentheses of a word such as "nan(ind)"
+  for (const char c : text) {
+    const bool after_blank = bare.empty() || kBlanks.find(bare.back()) != std::string_view::npos;
+    in_comment = (c == '#' && after_blank) || (in_comment && c != '\n');
+    const bool opens_word = c == '(' && !after_blank && is_letter(bare.back());
+    const bool is_bracket = c == '[' || c == ']' || (c == '(' && !opens_word) || (c == ')' && !in_word);
+    in_word = opens_word || (in_word && c != ')');
+    bare += in_comment || is_bracket || c == ';' ? ' ' : c;
+  }
+  for (std::size_t i = 0; i < bare.size(); ++i) {  // a comma between digits may be a decimal one
+    if (bare[i] == ',' && (i + 1 == bare.size() || std::isspace(static_cast<unsigned char>(bare[i + 1])) != 0)) bare[i] = ' ';
+  }
+  return bare;
 }
 
 std::vector<std::string_view> split_words(std::string_view text) {
@@ -116,8 +159,9 @@ double parse_number(std::string_view word, const std::filesystem::path& file, co
   double value = 0.0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const bool complete = !digits.empty() && error == std::errc() && end == digits.data() + digits.size();
-  if (!complete || !std::isfinite(value)) throw_file_error(file, in_quotes(word), "a finite number as " + what);
-  return value;
+  if (complete && std::isfinite(value)) return value;
+  throw_file_error(file, in_quotes(word),
+                   std::string("a finite number") + (has_decimal_comma(word) ? " with a decimal point" : "") + " as " + what);
 }
 
 bool is_not_finite(std::string_view word) {

@@ -17,10 +17,13 @@ namespace foothold::io {
 /// The text of a file, by read_file() and plain_text(). @throws FileError
 std::string read_text(const std::filesystem::path& file, std::size_t max_bytes);
 
-/// Text as Windows, spreadsheets and loggers write it, made plain: byte-order marks are dropped, UTF-16 becomes UTF-8, lines end in '\n',
-/// and in lines of comma- or semicolon-separated values blanks take the place of separators and quotes. Where semicolons separate, commas
-/// become decimal points.
+/// Text as Windows, spreadsheets and loggers write it, made plain: byte-order marks are dropped, UTF-16 becomes UTF-8 with or without one,
+/// lines end in '\n', and in lines of comma- or semicolon-separated values blanks take the place of separators and quotes. Where semicolons
+/// or tabs separate, decimal commas become points.
 std::string plain_text(std::string text);
+
+/// A text without its comments, brackets, and commas and semicolons behind numbers: what remains of a matrix in most notations.
+std::string bare_numbers(std::string_view text);
 
 /// The words of a text, separated by blanks and line ends.
 std::vector<std::string_view> split_words(std::string_view text);

@@ -14,6 +14,7 @@ namespace {
 StampedFile parse_stamped_file(const TextLine& line, std::size_t column, const std::filesystem::path& file) {
   const std::string where = "line " + std::to_string(line.number);
   StampedFile image{parse_number(line.words[column], file, "the time in " + where), std::string(line.words[column + 1])};
+  std::replace(image.name.begin(), image.name.end(), '\\', '/');  // as Windows separates folders
   const std::filesystem::path path = image.name;
   const bool leads_out = path.is_absolute() || std::find(path.begin(), path.end(), "..") != path.end();
   if (leads_out) throw_file_error(file, in_quotes(image.name) + " in " + where, "an image in the folder of this list");
@@ -21,6 +22,7 @@ StampedFile parse_stamped_file(const TextLine& line, std::size_t column, const s
 }
 
 bool earlier(const StampedFile& a, const StampedFile& b) { return a.timestamp_s < b.timestamp_s; }
+bool same(const StampedFile& a, const StampedFile& b) { return a.timestamp_s == b.timestamp_s && a.name == b.name; }
 
 }  // namespace
 
@@ -34,6 +36,7 @@ std::vector<StampedFile> parse_image_list(std::string_view text, const std::file
   }
   if (images.empty()) throw_file_error(file, "no image", "lines of timestamp filename");
   std::stable_sort(images.begin(), images.end(), earlier);
+  images.erase(std::unique(images.begin(), images.end(), same), images.end());
   return images;
 }
 
@@ -50,6 +53,8 @@ std::vector<ImagePair> parse_associations(std::string_view text, const std::file
   }
   if (pairs.empty()) throw_file_error(file, "no image", "lines of timestamp depth/NAME.png timestamp rgb/NAME.png");
   std::stable_sort(pairs.begin(), pairs.end(), [](const ImagePair& a, const ImagePair& b) { return earlier(a.depth, b.depth); });
+  const auto same_pair = [](const ImagePair& a, const ImagePair& b) { return same(a.depth, b.depth) && same(a.colour, b.colour); };
+  pairs.erase(std::unique(pairs.begin(), pairs.end(), same_pair), pairs.end());
   return pairs;
 }
 

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Foothold authors
 #include "tum_sequence.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -91,14 +92,33 @@ fs::path list_file(const fs::path& folder, std::initializer_list<const char*> na
 fs::path depth_list(const fs::path& folder) { return list_file(folder, {"aligned_depth.txt", "depth.txt"}); }
 fs::path colour_list(const fs::path& folder) { return list_file(folder, {"colour.txt", "color.txt", "rgb.txt"}); }
 
-/// Brings the times of a list to seconds.
-void settle_times(std::vector<StampedFile>& images, const fs::path& file, const Context& context) {
+void tell_unit(const fs::path& file, double s_per_unit, const Context& context) {
+  if (s_per_unit != 1.0) context.log(LogLevel::kInfo, file.string() + ": its times are read as " + time_unit_name(s_per_unit));
+}
+
+/// A list of images, its times brought to seconds.
+std::vector<StampedFile> read_list(const fs::path& file, const Context& context) {
+  std::vector<StampedFile> images = parse_image_list(read_text(file, kMaxListFileBytes), file);
   std::vector<double> times;
   for (const StampedFile& image : images) times.push_back(image.timestamp_s);
   const double s_per_unit = seconds_per_unit(times);
-  if (s_per_unit == 1.0) return;
   for (StampedFile& image : images) image.timestamp_s *= s_per_unit;
-  context.log(LogLevel::kInfo, file.string() + ": its times are read as " + time_unit_name(s_per_unit));
+  tell_unit(file, s_per_unit, context);
+  return images;
+}
+
+/// A list of pairs, its times brought to seconds; those of ICL-NUIM count frames, whatever lies between them.
+std::vector<ImagePair> read_associations(const fs::path& file, bool counts_frames, const Context& context) {
+  std::vector<ImagePair> pairs = parse_associations(read_text(file, kMaxListFileBytes), file);
+  std::vector<double> times;
+  for (const ImagePair& pair : pairs) times.push_back(pair.depth.timestamp_s);
+  const double s_per_unit = counts_frames ? 1.0 : seconds_per_unit(times);
+  for (ImagePair& pair : pairs) {
+    pair.depth.timestamp_s *= s_per_unit;
+    pair.colour.timestamp_s *= s_per_unit;
+  }
+  tell_unit(file, s_per_unit, context);
+  return pairs;
 }
 
 [[noreturn]] void throw_no_pair(const fs::path& file, const std::vector<StampedFile>& depth, const std::vector<StampedFile>& colour) {
@@ -109,20 +129,15 @@ void settle_times(std::vector<StampedFile>& images, const fs::path& file, const 
                    "images of one recording, their times in seconds");
 }
 
-std::vector<ImagePair> read_pairs(const fs::path& folder, const Context& context) {
+std::vector<ImagePair> read_pairs(const TumFolder& tum, const Context& context) {
+  const fs::path& folder = tum.path;
   const fs::path depth_file = depth_list(folder);
   const fs::path colour_file = colour_list(folder);
   if (!fs::exists(colour_file) && !fs::exists(depth_file)) {
-    const fs::path file = folder / "associations.txt";
-    return parse_associations(read_text(file, kMaxListFileBytes), file);
+    return read_associations(folder / "associations.txt", tum.is_icl_nuim, context);
   }
-  const auto read_list = [&](const fs::path& file) {
-    std::vector<StampedFile> images = parse_image_list(read_text(file, kMaxListFileBytes), file);
-    settle_times(images, file, context);
-    return images;
-  };
-  const std::vector<StampedFile> depth = read_list(depth_file);
-  const std::vector<StampedFile> colour = read_list(colour_file);
+  const std::vector<StampedFile> depth = read_list(depth_file, context);
+  const std::vector<StampedFile> colour = read_list(colour_file, context);
   std::vector<ImagePair> pairs = associate(depth, colour, kMaxPairDifference_s);
   if (pairs.empty()) throw_no_pair(depth_file, depth, colour);
   if (pairs.size() < depth.size()) {
@@ -141,10 +156,11 @@ std::vector<TruePose> read_truth(const TumFolder& folder, double first_frame_s, 
   const fs::path& file = folder.ground_truth;
   if (file.empty()) return {};
   std::vector<TruePose> truth = parse_ground_truth(read_text(file, kMaxListFileBytes), file);
-  const double s_per_unit = overlapping_unit(truth.front().timestamp_s, truth.back().timestamp_s, first_frame_s, last_frame_s);
-  if (s_per_unit == 1.0) return truth;
+  std::vector<double> times;
+  for (const TruePose& sample : truth) times.push_back(sample.timestamp_s);
+  const double s_per_unit = folder.is_icl_nuim ? 1.0 : sample_unit(times, first_frame_s, last_frame_s, kMaxPoseGap_s);
   for (TruePose& sample : truth) sample.timestamp_s *= s_per_unit;
-  context.log(LogLevel::kInfo, file.string() + ": its times are read as " + time_unit_name(s_per_unit));
+  tell_unit(file, s_per_unit, context);
   return truth;
 }
 
@@ -157,11 +173,13 @@ void add_poses(const TumFolder& folder, std::vector<RecordedFrame>& frames, cons
     frame.pose = interpolate(truth, frame.timestamp_s, kMaxPoseGap_s);
     any = any || frame.pose.has_value();
   }
-  if (any || truth.empty()) return;
+  const bool all_lost = std::none_of(truth.begin(), truth.end(), [](const TruePose& sample) { return sample.pose.has_value(); });
+  const bool overlaps = !truth.empty() && truth.front().timestamp_s <= last_s && truth.back().timestamp_s >= first_s;
+  if (any || truth.empty() || (all_lost && overlaps)) return;
   throw_file_error(folder.ground_truth,
-                   "no pose at the time of any frame: it tells of " + time_text(truth.front().timestamp_s) + " to " +
-                       time_text(truth.back().timestamp_s) + ", the frames were taken from " + time_text(first_s) + " to " +
-                       time_text(last_s),
+                   "no pose " + std::string(overlaps ? "within 0.1 s before and behind" : "at the time of") + " any frame: it tells of " +
+                       time_text(truth.front().timestamp_s) + " to " + time_text(truth.back().timestamp_s) +
+                       ", the frames were taken from " + time_text(first_s) + " to " + time_text(last_s),
                    "the ground truth of this recording, its times in seconds");
 }
 
@@ -176,12 +194,13 @@ FoundRecording read_tum(const fs::path& path, const Context& context) {
   FoundRecording found;
   found.folder = path;
   found.layout = folder.is_icl_nuim ? "ICL-NUIM" : "TUM RGB-D";
-  for (const ImagePair& pair : read_pairs(path, context)) {
+  for (const ImagePair& pair : read_pairs(folder, context)) {
     check_exists(path / pair.depth.name, "a list beside it");
     check_exists(path / pair.colour.name, "a list beside it");
     found.frames.push_back({{path / pair.depth.name}, {path / pair.colour.name}, pair.depth.timestamp_s, std::nullopt});
   }
   add_poses(folder, found.frames, context);
+  found.tells_poses = !folder.ground_truth.empty();
   if (folder.is_icl_nuim) {  // counts frames instead of seconds, and has y upwards in world and camera
     for (RecordedFrame& frame : found.frames) frame.timestamp_s /= kDefaultFrameRate_hz;
     found.pose_convention.mirror_y = true;

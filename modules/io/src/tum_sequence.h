@@ -25,7 +25,7 @@ struct ImagePair {
   StampedFile colour;
 };
 
-/// Parses lines of "timestamp filename". @return By rising time. @throws FileError
+/// Parses lines of "timestamp filename". @return By rising time; of equal lines next to each other, the first. @throws FileError
 std::vector<StampedFile> parse_image_list(std::string_view text, const std::filesystem::path& file);
 
 /// Parses lines of "timestamp depth-image timestamp colour-image", or the other way round, told apart by the folder's name. @throws

@@ -21,7 +21,8 @@ struct SequenceOptions {
   /// The depth camera, instead of what the recording's files say: "fx,fy,cx,cy", with 4, 5 or 8 coefficients of distortion behind if
   /// wanted, or the name of a file that holds them.
   std::string intrinsics;
-  /// What depth images count, such as 1000 for millimetres, instead of what the recording's layout says; 0 for the latter.
+  /// What depth images count, such as 1000 for millimetres, instead of what the recording's layout says; 0 for the latter. Below 1, it is
+  /// metres per unit: 0.001 for millimetres.
   double depth_units_per_m = 0.0;
   /// How poses are to be understood, instead of what the recording's layout says: words separated by commas, such as "inverse,opengl".
   /// docs/sequences.md lists them. Empty for the latter.
