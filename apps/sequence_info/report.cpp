@@ -84,8 +84,9 @@ std::string poses_text(const Recording& recording, const Course& c, const Record
       format("%d of %d frames, convention %s\n", c.num_with_pose, recording.num_frames(), recording.facts().pose_convention.c_str());
   text += format("              within %.2f x %.2f x %.2f m, path %.1f m, longest step %.0f mm (to frame %d), %.1f deg\n", c.extent_m.x(),
                  c.extent_m.y(), c.extent_m.z(), c.path_m, 1e3 * c.longest_step_m, c.longest_step_frame, c.longest_step_deg);
-  text += format("              %.0f %% of the depth agrees between frames some motion apart (%d pairs)", 100.0 * check.pose_agreement,
-                 check.num_pose_pairs);
+  text += check.num_pose_pairs == 0 ? "              no two frames to compare"
+                                    : format("              %.0f %% of the depth agrees between frames some motion apart (%d pairs)",
+                                             100.0 * check.pose_agreement, check.num_pose_pairs);
   const Eigen::Vector3d origin = recording.origin_m();
   if (!origin.isZero())
     text += format("\n              far from their origin: worked with relative to %.0f %.0f %.0f m", origin.x(), origin.y(), origin.z());

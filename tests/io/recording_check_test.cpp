@@ -173,6 +173,14 @@ TEST_CASE("check_recording: depth along rays, and intrinsics a fifth too large, 
   CHECK_THAT(warnings_of(temp.path(), options), Contains("of the depth agrees between frames") && Contains("may be wrong"));
 }
 
+TEST_CASE("check_recording: positions in a unit that has no name here are doubted, and no other unit is advised") {
+  const TempFolder temp;
+  RoomFormat format;
+  format.pose = [](const RecordedPose& p) { return RecordedPose{p.rotation, 10.0 * p.translation_m}; };
+  write_room_as_seven_scenes(temp.path(), format);
+  CHECK_THAT(warnings_of(temp.path()), Contains("may be wrong") && !Contains("--pose-convention"));
+}
+
 TEST_CASE("check_recording: a small thing seen from near is no wrong unit if its poses fit") {
   const TempFolder temp;
   RoomFormat format;

@@ -28,8 +28,9 @@ constexpr int kMaxPairFrames = 60;
 constexpr double kGoodAgreement = 0.9;
 /// Fewer points that should be seen in the other frame say little.
 constexpr double kLeastSeen = 0.3;
-/// Other readings are worth a word only if they agree so well.
-constexpr double kLeastOfBetter = 0.8;
+/// Other readings are worth a word only if they agree so well. Of units, one that is a third off still agrees for two thirds.
+constexpr double kLeastOfUnit = 0.8;
+constexpr double kLeastOfConvention = 0.6;
 /// Units of depth that people use, per metre, likelier ones first.
 constexpr std::array<double, 11> kDepthUnitsPerM{1000.0, 5000.0, 10000.0, 4000.0, 100.0, 1.0, 256.0, 6553.5, 2000.0, 8000.0, 500.0};
 /// Two frames tell whether depth and positions have one unit if they are so far apart, in parts of the depth.
@@ -40,7 +41,7 @@ constexpr double kLeastMotion_m = 0.0005;
 constexpr double kByFar = 0.5;
 constexpr double kLeastGain = 0.1;
 /// Poses of which no reading fits are worth a word below this.
-constexpr double kDoubtfulAgreement = 0.6;
+constexpr double kDoubtfulAgreement = 0.5;
 constexpr double kHardlySeen = 0.1;
 /// Recordings with less depth than this are hardly worth the name.
 constexpr double kLeastValidFraction = 0.05;
@@ -67,8 +68,9 @@ io::RecordedPose in_own_frame(const SE3& pose, const Eigen::Vector3d& origin_m) 
   return {pose.rotation.cast<double>(), pose.translation.cast<double>() + origin_m};
 }
 
-/// A frame some motion after another; -1 if no later one has a pose.
-int partner_of(int anchor, const std::vector<std::optional<SE3>>& poses) {
+/// A frame some motion after another, in units of positions; -1 if no later one has a pose.
+int partner_of(int anchor, const std::vector<std::optional<SE3>>& poses, double metres_per_unit) {
+  const float motion = kPairMotion_m / static_cast<float>(metres_per_unit);
   int partner = -1;
   const int end = std::min(static_cast<int>(poses.size()), anchor + kMaxPairFrames + 1);
   for (int i = anchor + 1; i < end; ++i) {
@@ -76,7 +78,7 @@ int partner_of(int anchor, const std::vector<std::optional<SE3>>& poses) {
     if (!pose.has_value()) continue;
     partner = i;
     const SE3& first = *poses[static_cast<std::size_t>(anchor)];
-    const bool moved = translation_distance_m(first, *pose) > kPairMotion_m || rotation_distance_rad(first, *pose) > kPairMotion_rad;
+    const bool moved = translation_distance_m(first, *pose) > motion || rotation_distance_rad(first, *pose) > kPairMotion_rad;
     if (moved && i >= anchor + kMinPairFrames) break;
   }
   return partner;
@@ -89,7 +91,7 @@ struct Pairs {
   double baseline_m = 0.0;  ///< between the two of a pair, on average
 };
 
-Pairs collect_pairs(const Recording& recording, io::DepthStatistics& statistics, RecordingCheck& check) {
+Pairs collect_pairs(const Recording& recording, double metres_per_unit, io::DepthStatistics& statistics, RecordingCheck& check) {
   const auto& poses = recording.facts().world_from_camera;
   Pairs pairs;
   double path_m = 0.0;
@@ -97,7 +99,7 @@ Pairs collect_pairs(const Recording& recording, io::DepthStatistics& statistics,
   for (int i = 0; i < kNumAnchors; ++i) {
     const int anchor = static_cast<int>(static_cast<std::size_t>(i) * poses.size() / kNumAnchors);
     const bool has_pose = poses[static_cast<std::size_t>(anchor)].has_value();
-    const int partner = has_pose ? partner_of(anchor, poses) : -1;
+    const int partner = has_pose ? partner_of(anchor, poses, metres_per_unit) : -1;
     FramePair pair;
     pair.depth_a = try_depth(recording, anchor, check);
     statistics.add(pair.depth_a);
@@ -131,10 +133,20 @@ std::vector<io::Reading> other_readings(const RecordingFacts& facts, double moti
   return readings;
 }
 
-void check_poses(const Pairs& pairs, const RecordingFacts& facts, RecordingCheck& check) {
+/// How well a reading with smaller units of positions fits pairs that are as far apart in these units as others are in metres: so near that
+/// their positions hardly count, anything fits.
+io::Agreement agreement_from_afar(const Recording& recording, const io::Reading& reading) {
+  io::DepthStatistics unused_statistics;
+  RecordingCheck unused_check;
+  const Pairs pairs = collect_pairs(recording, reading.convention.metres_per_unit, unused_statistics, unused_check);
+  return io::pose_agreement(pairs.frames, recording.facts().calibration.depth, reading);
+}
+
+void check_poses(const Recording& recording, const Pairs& pairs, RecordingCheck& check) {
   constexpr double kTie = 0.002;  // the likelier reading wins
   check.num_pose_pairs = static_cast<int>(pairs.frames.size());
   if (pairs.frames.empty()) return;
+  const RecordingFacts& facts = recording.facts();
   const Intrinsics& camera = facts.calibration.depth;
   const io::Agreement as_read = io::pose_agreement(pairs.frames, camera, {});
   check.pose_agreement = as_read.seen >= kHardlySeen ? as_read.fraction : 0.0;
@@ -150,9 +162,12 @@ void check_poses(const Pairs& pairs, const RecordingFacts& facts, RecordingCheck
     best_agreement = agreement;
     best = reading;
   }
-  const bool by_far = best_agreement.fraction >= kLeastOfBetter && 1.0 - best_agreement.fraction < kByFar * (1.0 - check.pose_agreement) &&
+  const double least = best.depth_factor != 1.0 ? kLeastOfUnit : kLeastOfConvention;
+  const bool by_far = best_agreement.fraction >= least && 1.0 - best_agreement.fraction < kByFar * (1.0 - check.pose_agreement) &&
                       best_agreement.score > as_read.score + kLeastGain;
   if (!by_far) return;
+  if (best.convention.metres_per_unit != 1.0) best_agreement = agreement_from_afar(recording, best);
+  if (best_agreement.fraction < least) return;
   check.better_agreement = best_agreement.fraction;
   if (best.depth_factor != 1.0) check.better_depth_units_per_m = facts.depth_units_per_m / best.depth_factor;
   if (best.convention != io::PoseConvention{}) check.better_convention = to_string(best.convention);
@@ -198,7 +213,8 @@ void warn_of_depth(const RecordingFacts& facts, RecordingCheck& check) {
   double unit = check.better_depth_units_per_m;
   if (unit == 0.0 && unlikely && !check.poses_fit) unit = plausible_unit(facts, check.median_depth_m);
   if (!unlikely && unit == 0.0) return;
-  std::string text = subject + "the unit of depth looks wrong: " + depth_text(facts, check);
+  std::string text = subject + "the unit of depth" + (check.better_depth_units_per_m != 0.0 ? ", or that of positions," : "") +
+                     " looks wrong: " + depth_text(facts, check);
   if (check.poses_fit) text += "; yet its poses fit";
   if (unit != 0.0) text += try_unit(unit, check.median_depth_m * facts.depth_units_per_m / unit);
   if (check.better_depth_units_per_m != 0.0) {
@@ -225,9 +241,9 @@ void warn_of_poses(const RecordingFacts& facts, RecordingCheck& check) {
 RecordingCheck check_recording(const Recording& recording) {
   RecordingCheck check;
   io::DepthStatistics statistics;
-  const Pairs pairs = collect_pairs(recording, statistics, check);
+  const Pairs pairs = collect_pairs(recording, 1.0, statistics, check);
   statistics.finish(check);
-  check_poses(pairs, recording.facts(), check);
+  check_poses(recording, pairs, check);
   warn_of_depth(recording.facts(), check);
   warn_of_poses(recording.facts(), check);
   return check;
