@@ -33,8 +33,6 @@ constexpr double kLeastOfUnit = 0.8;
 constexpr double kLeastOfConvention = 0.6;
 /// Units of depth that people use, per metre, likelier ones first.
 constexpr std::array<double, 11> kDepthUnitsPerM{1000.0, 5000.0, 10000.0, 4000.0, 100.0, 1.0, 256.0, 6553.5, 2000.0, 8000.0, 500.0};
-/// Two frames tell whether depth and positions have one unit if they are so far apart, in parts of the depth.
-constexpr double kTellingBaseline = 0.05;
 /// A hand-held camera moves at least so far between frames [m], if a smaller unit of positions is worth trying.
 constexpr double kLeastMotion_m = 0.0005;
 /// Another reading fits far better if it leaves less than this part of the disagreement, and fits better by this much.
@@ -87,8 +85,7 @@ int partner_of(int anchor, const std::vector<std::optional<SE3>>& poses, double 
 /// Frames with a pose and their partners, spread over the recording.
 struct Pairs {
   std::vector<FramePair> frames;
-  double motion_m = 0.0;    ///< between consecutive frames, on average
-  double baseline_m = 0.0;  ///< between the two of a pair, on average
+  double motion_m = 0.0;  ///< between consecutive frames, on average
 };
 
 Pairs collect_pairs(const Recording& recording, double metres_per_unit, io::DepthStatistics& statistics, RecordingCheck& check) {
@@ -114,7 +111,6 @@ Pairs collect_pairs(const Recording& recording, double metres_per_unit, io::Dept
     pairs.frames.push_back(std::move(pair));
   }
   if (num_steps > 0) pairs.motion_m = path_m / num_steps;
-  if (num_steps > 0) pairs.baseline_m = path_m / static_cast<double>(pairs.frames.size());
   return pairs;
 }
 
@@ -151,7 +147,8 @@ void check_poses(const Recording& recording, const Pairs& pairs, RecordingCheck&
   const io::Agreement as_read = io::pose_agreement(pairs.frames, camera, {});
   check.pose_agreement = as_read.seen >= kHardlySeen ? as_read.fraction : 0.0;
   if (as_read.fraction >= kGoodAgreement && as_read.seen >= kLeastSeen) {
-    check.poses_fit = pairs.baseline_m >= kTellingBaseline * check.median_depth_m;
+    const auto score = [&](double depth_factor) { return io::pose_agreement(pairs.frames, camera, {{}, depth_factor}).score; };
+    check.poses_fit = as_read.score > std::max(score(0.5), score(2.0)) + kLeastGain;
     return;
   }
   io::Reading best;

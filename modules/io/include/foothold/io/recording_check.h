@@ -29,7 +29,7 @@ struct RecordingCheck {
   /// Of the points that should be seen in the other frame, those that are, at their depth to 2 cm and 2 %; 1 for perfect poses of a still
   /// scene.
   double pose_agreement = 0.0;
-  /// True if they agree well, and the camera moved enough for it to mean that depth and positions have one unit.
+  /// True if they agree well, and far less if depth were twice or half as large: depth and positions have one unit.
   bool poses_fit = false;
   /// The convention under which more agree by far, as SequenceOptions::pose_convention has it; empty if there is none.
   std::string better_convention;
