@@ -8,6 +8,7 @@
 #include "foothold/base/camera.h"
 #include "foothold/base/exec/atomics.h"
 #include "foothold/base/se3.h"
+#include "raycast/surface_regions.h"
 #include "tsdf/block_extent.h"
 #include "tsdf/tsdf_view.h"
 
@@ -69,10 +70,14 @@ struct PlaceCamera {
 struct ResetRanges {
   std::int32_t* near;
   std::int32_t* far;
+  std::size_t num_ranges;
+  SurfaceRegions regions;
 
-  FOOTHOLD_HD void operator()(std::size_t tile) const {
-    near[tile] = 0x7f7fffff;  // the largest float
-    far[tile] = 0;
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    if (i < std::size_t{1} << static_cast<unsigned>(regions.log2_size)) regions.blocks[i] = 0;
+    if (i >= num_ranges) return;
+    near[i] = 0x7f7fffff;  // the largest float
+    far[i] = 0;
   }
 };
 
@@ -83,12 +88,14 @@ struct ProjectBlockRange {
   const SE3* cameras_from_world;
   std::int32_t* near;
   std::int32_t* far;
+  SurfaceRegions regions;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
     const ImageItem item(i, volume.num_blocks);
     const unsigned octants = volume.surface_octants[item.index];
     if (octants == 0) return;
     const BlockCoordinates block = unpack_key(volume.block_keys[item.index]);
+    if (item.image == 0) regions.add(block);
     const SE3 camera_from_world = cameras_from_world[item.image];
     const float side_m = volume.voxel_size_m * static_cast<float>(kOctantSide);
     for (int octant = 0; octant < 8; ++octant) {

@@ -5,6 +5,7 @@
 
 #include <cfloat>
 
+#include "raycast/surface_regions.h"
 #include "tsdf/tsdf_view.h"
 
 namespace foothold {
@@ -26,12 +27,13 @@ struct Ray {
     return std::abs(origin[0]) < kFarthestCamera && std::abs(origin[1]) < kFarthestCamera && std::abs(origin[2]) < kFarthestCamera;
   }
 
-  /// The depth at which the ray leaves an octant, given in octants.
-  FOOTHOLD_HD float exit_depth(const BlockCoordinates& octant) const {
-    const int corner[3] = {octant.x, octant.y, octant.z};
+  /// The depth at which the ray leaves the cube of 2^log2_octants octants a side that an octant lies in.
+  FOOTHOLD_HD float exit_depth(const BlockCoordinates& octant, int log2_octants) const {
+    const int corner[3] = {octant.x >> log2_octants, octant.y >> log2_octants, octant.z >> log2_octants};
+    const int side = kOctantSide << log2_octants;
     float exit = FLT_MAX;
     for (int axis = 0; axis < 3; ++axis) {
-      const float plane = static_cast<float>((corner[axis] + (direction[axis] > 0.0F ? 1 : 0)) * kOctantSide);
+      const float plane = static_cast<float>((corner[axis] + (direction[axis] > 0.0F ? 1 : 0)) * side);
       const float depth = (plane - origin[axis]) * inverse[axis];
       exit = depth < exit ? depth : exit;
     }
@@ -42,8 +44,11 @@ struct Ray {
 /// Follows one ray at a time to the first fall of the signed distance through zero.
 class RayMarcher {
  public:
-  FOOTHOLD_HD explicit RayMarcher(const TsdfView& volume)
-      : volume_(volume), reader_(volume), near_limit_(kInterpolationBand * volume.voxel_size_m / volume.truncation_m * kStoredOne) {}
+  FOOTHOLD_HD RayMarcher(const TsdfView& volume, const SurfaceRegions& regions)
+      : volume_(volume),
+        regions_(regions),
+        reader_(volume),
+        near_limit_(kInterpolationBand * volume.voxel_size_m / volume.truncation_m * kStoredOne) {}
 
   /// The depth of the surface [m], or 0.
   FOOTHOLD_HD float march(const Ray& ray, float near, float far) {
@@ -60,7 +65,7 @@ class RayMarcher {
       const float z = ray.origin[2] + ray.direction[2] * depth;
       if (!enter_octant(x, y, z)) {
         outside = false;
-        const float exit = ray.exit_depth(octant_);
+        const float exit = ray.exit_depth(octant_, log2_empty_octants_);
         depth = (exit > depth ? exit : depth) + kNudge * voxel;
         continue;
       }
@@ -100,7 +105,19 @@ class RayMarcher {
     const BlockCoordinates octant{floor_to_int(x) >> 2, floor_to_int(y) >> 2, floor_to_int(z) >> 2};
     if (octant.x == octant_.x && octant.y == octant_.y && octant.z == octant_.z) return has_surface_;
     octant_ = octant;
-    const std::uint64_t key = pack_key({octant.x >> 1, octant.y >> 1, octant.z >> 1});
+    has_surface_ = false;
+    const BlockCoordinates block{octant.x >> 1, octant.y >> 1, octant.z >> 1};
+    const std::uint64_t region = SurfaceRegions::region_of(block);
+    if (region != region_) {
+      region_ = region;
+      blocks_with_surface_ = regions_.blocks_with_surface(region);
+    }
+    log2_empty_octants_ = kLog2RegionOctants;
+    if (blocks_with_surface_ == 0) return false;
+    log2_empty_octants_ = 1;
+    if ((blocks_with_surface_ & SurfaceRegions::bit_of(block)) == 0) return false;
+    log2_empty_octants_ = 0;
+    const std::uint64_t key = pack_key(block);
     if (key != key_) {
       key_ = key;
       const int index = volume_.find(key);
@@ -144,9 +161,13 @@ class RayMarcher {
   }
 
   TsdfView volume_;
+  SurfaceRegions regions_;
   VoxelReader reader_;
   float near_limit_;
   BlockCoordinates octant_{INT32_MAX, 0, 0};
+  int log2_empty_octants_ = 0;  ///< side of the cube around octant_ that has no surface, if octant_ has none
+  std::uint64_t region_ = kNoKey;
+  std::uint64_t blocks_with_surface_ = 0;
   std::uint64_t key_ = kNoKey;
   unsigned surface_octants_ = 0;
   bool has_surface_ = false;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 
 #include "foothold/fusion/raycaster.h"
 #include "raycast/depth_range_kernels.h"
@@ -13,12 +14,13 @@ namespace foothold {
 
 struct Raycaster::Scratch {
   explicit Scratch(const Memory& memory)
-      : pose(memory), cameras_from_world(memory), range_near(memory), range_far(memory), depths_m(memory) {}
+      : pose(memory), cameras_from_world(memory), range_near(memory), range_far(memory), regions(memory), depths_m(memory) {}
 
   Array<SE3> pose;  ///< of a single rendering
   Array<SE3> cameras_from_world;
   Array<std::int32_t> range_near;  ///< depth [m] as the bits of a positive float, whose order is that of integers
   Array<std::int32_t> range_far;
+  Array<std::uint64_t> regions;  ///< of SurfaceRegions
   Array<float> depths_m;
 };
 
@@ -39,6 +41,7 @@ inline constexpr int kRayTileHeight = 8;
 /// Renders one tile of an image.
 struct RenderTile {
   TsdfView volume;
+  SurfaceRegions regions;
   RayCamera camera;
   const std::int32_t* near;
   const std::int32_t* far;
@@ -50,7 +53,7 @@ struct RenderTile {
     const ImageItem item(tile, camera.num_tiles);
     const int u0 = item.index % camera.num_tile_columns * kRayTileWidth;
     const int v0 = item.index / camera.num_tile_columns * kRayTileHeight;
-    RayMarcher marcher(volume);
+    RayMarcher marcher(volume, regions);
     for (int i = team.lane(); i < kRayTileWidth * kRayTileHeight; i += team.size()) {
       const int u = u0 + i % kRayTileWidth;
       const int v = v0 + i / kRayTileWidth;
@@ -152,6 +155,13 @@ struct EstimateNormal {
   }
 };
 
+/// Slots for regions, as a power of two: several for each region of a map whose blocks lie along surfaces.
+inline int log2_num_regions(int num_blocks) {
+  int log2 = 10;
+  while (log2 < 20 && (1 << log2) < num_blocks / 2) ++log2;
+  return log2;
+}
+
 template <class Executor>
 void RaycastAlgorithms<Executor>::render(const Context& context, const TsdfView& volume, const Array<SE3>& world_from_cameras,
                                          Scratch& scratch, SurfaceMap& map) {
@@ -171,14 +181,19 @@ void RaycastAlgorithms<Executor>::render(const Context& context, const TsdfView&
   scratch.range_near.resize(num_ranges);
   scratch.range_far.resize(num_ranges);
   scratch.depths_m.resize(map.pixels.size());
+  const int log2_regions = log2_num_regions(volume.num_blocks);
+  scratch.regions.resize(std::size_t{1} << static_cast<unsigned>(log2_regions));
   SE3* const cameras_from_world = scratch.cameras_from_world.data();
   std::int32_t* const near = scratch.range_near.data();
   std::int32_t* const far = scratch.range_far.data();
   exec.for_each(num_images, PlaceCamera{world_from_cameras.data(), map.world_from_cameras.data(), cameras_from_world});
-  exec.for_each(num_ranges, ResetRanges{near, far});
-  exec.for_each(num_images * static_cast<std::size_t>(volume.num_blocks), ProjectBlockRange{volume, camera, cameras_from_world, near, far});
-  exec.for_each_team(num_images * static_cast<std::size_t>(camera.num_tiles),
-                     RenderTile{volume, camera, near, far, scratch.depths_m.data(), map.colours.empty() ? nullptr : map.colours.data()});
+  const SurfaceRegions regions{scratch.regions.data(), log2_regions};
+  exec.for_each(std::max(num_ranges, scratch.regions.size()), ResetRanges{near, far, num_ranges, regions});
+  exec.for_each(num_images * static_cast<std::size_t>(volume.num_blocks),
+                ProjectBlockRange{volume, camera, cameras_from_world, near, far, regions});
+  exec.for_each_team(
+      num_images * static_cast<std::size_t>(camera.num_tiles),
+      RenderTile{volume, regions, camera, near, far, scratch.depths_m.data(), map.colours.empty() ? nullptr : map.colours.data()});
   exec.for_each(map.pixels.size(), EstimateNormal{camera, scratch.depths_m.data(), map.pixels.data()});
 }
 
