@@ -26,6 +26,21 @@ constexpr std::size_t kColourFeatures[] = {7, 8, 9};
 /// ones. (T: relocalisation_benchmark, kitchen)
 constexpr double kHopelessProbability = 0.02;
 
+/// Of the pixels on the map, those that coarse alignment must have found a partner for, if a pose that looks hopeless is to be aligned
+/// finely (T: relocalisation_benchmark, kitchen against teddy and rooms).
+constexpr float kLeastHold = 0.3F;
+/// A pose that slid has at least this part of the frame on the map (T: replay_sequence, kitchen, ferns: 0.57 and more).
+constexpr float kLeastSlidOverlap = 0.5F;
+/// A relocaliser that is surer than this that its proposal is wrong is believed; one of 0 says nothing (T: relocalisation_benchmark,
+/// kitchen against teddy and rooms: 0.0001 and less).
+constexpr float kDeniedConfidence = 2e-4F;
+
+bool has_hold(const RefinedPose& pose) { return pose.agreement.overlap >= kMinOverlap && pose.measures.inlier_fraction >= kLeastHold; }
+
+bool may_have_slid(const RefinedPose& pose, float confidence) {
+  return pose.agreement.overlap >= kLeastSlidOverlap && (confidence == 0.0F || confidence > kDeniedConfidence);
+}
+
 ClassifierModel with_lenient_poor_threshold(ClassifierModel model) {
   const double score =
       (std::log(kHopelessProbability / (1.0 - kHopelessProbability)) - double{model.probability_offset}) / double{model.probability_scale};
@@ -211,7 +226,11 @@ std::vector<RefinedPose> PoseRefiner::refine_ranked(const Frame& frame, const Ts
   const Span<const RefinedPose> all(ranked);
   std::vector<RefinedPose> finalists = refine_finalists(frame, volume, proposals, all.subspan(0, num_hopeful));
   if (std::none_of(finalists.begin(), finalists.end(), [&](const RefinedPose& pose) { return is_good(pose); })) {
-    for (const RefinedPose& pose : refine_finalists(frame, volume, proposals, all.subspan(num_hopeful, ranked.size() - num_hopeful))) {
+    std::vector<RefinedPose> hopeless;
+    for (const RefinedPose& pose : all.subspan(num_hopeful, ranked.size() - num_hopeful)) {
+      (has_hold(pose) ? hopeless : finalists).push_back(pose);
+    }
+    for (const RefinedPose& pose : refine_finalists(frame, volume, proposals, hopeless)) {
       finalists.push_back(pose);
       if (is_good(pose)) break;  // hopeless ones behind it cannot rival what was found
     }
@@ -241,8 +260,8 @@ std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolum
   comparer_.set_frame(frame);
   const std::size_t num_proposals = std::min(proposals.size(), static_cast<std::size_t>(settings_.max_candidates));
   std::vector<RefinedPose> finalists = refine_ranked(frame, volume, Span<const PoseEstimate>(proposals.data(), num_proposals));
-  if (!is_good(finalists.front())) {
-    const int candidate = finalists.front().candidate;
+  const int candidate = finalists.front().candidate;
+  if (!is_good(finalists.front()) && may_have_slid(finalists.front(), proposals[static_cast<std::size_t>(candidate)].confidence)) {
     for (RefinedPose& slid : refine_ranked(frame, volume, slide(finalists.front()))) {
       if (!is_good(slid)) continue;  // what is in doubt wherever it slides is best left where the relocaliser saw it
       slid.candidate = candidate;
