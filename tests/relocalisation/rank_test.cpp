@@ -34,7 +34,8 @@ SceneEvidence evidence_of(const std::vector<FeaturePixel>& pixels, const std::ve
   const FeatureImageView image{pixels.data(), kWidth, kHeight, 1.0F};
   std::uint64_t order = 0;
   SceneEvidence evidence{-1.0F, -1.0F, -1.0F};
-  const HypothesesView hypotheses{&scene_from_camera, nullptr, &order};
+  float energy = 0.0F;
+  const HypothesesView hypotheses{&scene_from_camera, &energy, &order};
   const auto num_points = static_cast<int>(points.size());
   JudgeCandidates<CpuExecutor>{image, kCamera, points.data(), num_points, hypotheses, &evidence}(CpuTeam{}, 0);
   return evidence;

@@ -11,7 +11,7 @@
 namespace foothold {
 namespace {
 
-constexpr std::size_t kLanes = CpuExecutor::kVectorWidth;
+constexpr int kLanes = CpuExecutor::kVectorWidth;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
@@ -61,10 +61,12 @@ struct Problem {
   /// Fixes modes and refines, as pre-emptive RANSAC does with a single hypothesis.
   SE3 refine(SE3 pose, int num_iterations, float radius_m = 0.5F) {
     std::uint64_t order = 0;
-    const HypothesesView hypotheses{&pose, nullptr, &order};
-    nearest.assign(count * kLanes, kNoMode);
-    AssignModes<CpuExecutor>{view(), hypotheses, 1, count, radius_m, nearest.data()}(CpuTeam{}, 0);
-    RefineHypothesis<CpuExecutor>{view(), hypotheses, count, nearest.data(), num_iterations}(CpuTeam{}, 0);
+    float energy = 0.0F;
+    const HypothesesView hypotheses{&pose, &energy, &order};
+    nearest.assign(count, kNoMode);
+    packed.assign(std::size_t{kNumPacked} * padded_samples(count), 0.0F);
+    AssignModes<kLanes>{view(), hypotheses, 1, count, radius_m, nearest.data()}(CpuTeam{}, 0);
+    RefineHypothesis<CpuExecutor>{view(), hypotheses, 1, count, nearest.data(), packed.data(), num_iterations}(CpuTeam{}, 0);
     return pose;
   }
 
@@ -94,6 +96,7 @@ struct Problem {
   std::vector<Mode> modes;
   std::uint32_t count;
   std::vector<std::uint16_t> nearest;
+  std::vector<float> packed;
 };
 
 TEST_CASE("perturbed: turns about the camera's own position") {
@@ -111,12 +114,12 @@ TEST_CASE("AssignModes: fixes the mode that is nearest by Mahalanobis distance, 
   Problem problem(random, 200, 0.03F);
   problem.count = 190;  // the last ten do not exist
   problem.refine(problem.truth, 0);
-  for (std::uint32_t i = 0; i < 190; ++i) REQUIRE(problem.nearest[i * kLanes] == 1);
+  for (std::uint32_t i = 0; i < 190; ++i) REQUIRE(problem.nearest[i] == 1);
   // A pose that is off by 10 m has no mode nearby.
   SE3 far = problem.truth;
   far.translation.z() += 10.0F;
   problem.refine(far, 0);
-  for (std::uint32_t i = 0; i < 190; ++i) REQUIRE(problem.nearest[i * kLanes] == kNoMode);
+  for (std::uint32_t i = 0; i < 190; ++i) REQUIRE(problem.nearest[i] == kNoMode);
 }
 
 TEST_CASE("RefineHypothesis: its first step is the damped Gauss-Newton step of the numeric Jacobian") {
@@ -175,7 +178,7 @@ TEST_CASE("RefineHypothesis: never makes a pose worse, and leaves it alone witho
     const SE3 start = perturbed(problem.truth, random_twist(random, 0.1F, 0.1F).data());
     const SE3 found = problem.refine(start, 1 + repeat % 8, 10.0F);
     bool all_true = true;
-    for (std::uint32_t i = 0; i < problem.count; ++i) all_true = all_true && problem.nearest[i * kLanes] == 1;
+    for (std::uint32_t i = 0; i < problem.count; ++i) all_true = all_true && problem.nearest[i] == 1;
     if (all_true) REQUIRE(problem.cost(found) <= problem.cost(start) * (1.0 + 1e-5));
     REQUIRE(is_rigid(found, 1e-4F));
   }

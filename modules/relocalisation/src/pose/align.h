@@ -19,7 +19,17 @@ struct SurfaceSample {
   float normal_camera[3];  ///< unit length, towards the camera
 };
 
-/// A sample's distance along its normal to the points that one leaf remembers around it, as weighted sums.
+/// Points that one leaf remembers around a sample (T): those that a pose which moves by millimetres may come to lie on, side by side.
+inline constexpr int kNearPoints = 16;
+struct NearPoints {
+  std::int16_t x_mm[kNearPoints];
+  std::int16_t y_mm[kNearPoints];
+  std::int16_t z_mm[kNearPoints];
+  std::int16_t num;
+};
+static_assert(sizeof(NearPoints) == 98, "lives in device memory");
+
+/// A sample's distance along its normal to the points that are remembered around it, as weighted sums.
 struct SurfaceOffset {
   float weight;
   float offset_mm;  ///< times the weight
@@ -37,12 +47,14 @@ static_assert(sizeof(AlignmentState) == 56, "lives in device memory");
 struct Alignment {
   Alignment(const Memory& memory, int num_samples, int num_candidates)
       : surfaces(memory, static_cast<std::size_t>(num_samples)),
-        offsets(memory),
+        near(memory),
+        offsets(memory, surfaces.size()),
         state(memory, 1),
         misfits(memory, Span<const float>(std::vector<float>(static_cast<std::size_t>(num_candidates), 1.0F))) {}
 
   Array<SurfaceSample> surfaces;
-  Array<SurfaceOffset> offsets;  ///< samples x trees
+  Array<NearPoints> near;        ///< samples x trees
+  Array<SurfaceOffset> offsets;  ///< per sample
   Array<AlignmentState> state;
   Array<float> misfits;  ///< per candidate; 1 for those that were not aligned
 };

@@ -30,60 +30,100 @@ struct EndAlignment {
   }
 };
 
-/// Sums the distances along a sample's normal to the points of one of its leaves, weighted by (1 - d^2 / r^2)^2 within the radius.
+/// Looks up the points that a leaf remembers within reach of a sample, once for all steps: the first kNearPoints of them.
 /// Item i is tree i % num_trees of sample i / num_trees.
-struct MeasureOffset {
+struct FindNearPoints {
   LeafReservoirsView reservoirs;
   int num_trees;
   std::size_t pool_size;
   const std::uint32_t* leaves;
   const SurfaceSample* surfaces;
-  float radius_mm;
+  float reach_mm;
   const AlignmentState* state;
-  SurfaceOffset* offsets;
+  NearPoints* near;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
     const auto item = static_cast<std::uint32_t>(i);
     const std::size_t sample = item / static_cast<std::uint32_t>(num_trees);
     const std::size_t tree = item % static_cast<std::uint32_t>(num_trees);
-    SurfaceOffset sum{0.0F, 0.0F};
     const SurfaceSample& surface = surfaces[sample];
     const std::uint32_t leaf = leaves[tree * pool_size + sample];
-    if (state->ended == 0 && has_normal(surface) && leaf < static_cast<std::uint32_t>(reservoirs.num_leaves)) {
-      const SE3& pose = state->scene_from_camera;
-      const Eigen::Vector3f p_mm = (pose.rotation * point_of(surface) + pose.translation) * 1000.0F;
-      add_leaf(leaf, p_mm, pose.rotation * normal_of(surface), sum);
-    }
-    offsets[i] = sum;
+    NearPoints& found = near[i];
+    found.num = 0;
+    if (!has_normal(surface) || leaf >= static_cast<std::uint32_t>(reservoirs.num_leaves)) return;
+    const SE3& pose = state->scene_from_camera;
+    find_in_leaf(leaf, (pose.rotation * point_of(surface) + pose.translation) * 1000.0F, found);
   }
 
  private:
-  FOOTHOLD_HD FOOTHOLD_INLINE void add_leaf(std::uint32_t leaf, const Eigen::Vector3f& p_mm, const Eigen::Vector3f& n,
-                                            SurfaceOffset& sum) const {
+  FOOTHOLD_HD FOOTHOLD_INLINE void find_in_leaf(std::uint32_t leaf, const Eigen::Vector3f& p_mm, NearPoints& found) const {
     const int num_points = reservoirs.num_stored(leaf);
-    const float inverse_radius2 = 1.0F / (radius_mm * radius_mm);
-    float factors[kReservoirBlockSize];
-    float offsets_mm[kReservoirBlockSize];
-    float weights[kReservoirBlockSize] = {};
-    float products[kReservoirBlockSize] = {};
     for (int first = 0; first < num_points; first += kReservoirBlockSize) {
       const ReservoirBlock& block = reservoirs.block_of(leaf, first);
       const int num = num_points - first < kReservoirBlockSize ? num_points - first : kReservoirBlockSize;
+      std::int32_t is_near[kReservoirBlockSize];
+      std::int32_t num_near = 0;
       for (int w = 0; w < kReservoirBlockSize; ++w) {
         const float dx = static_cast<float>(block.x_mm[w]) - p_mm.x();
         const float dy = static_cast<float>(block.y_mm[w]) - p_mm.y();
         const float dz = static_cast<float>(block.z_mm[w]) - p_mm.z();
-        const float closeness = 1.0F - (dx * dx + dy * dy + dz * dz) * inverse_radius2;
-        const float clipped = (closeness > 0.0F) & (w < num) ? closeness : 0.0F;
-        factors[w] = clipped * clipped;
-        offsets_mm[w] = n.x() * dx + n.y() * dy + n.z() * dz;
+        is_near[w] = (dx * dx + dy * dy + dz * dz < reach_mm * reach_mm) & (w < num) ? 1 : 0;
+        num_near += is_near[w];
       }
-      for (int w = 0; w < kReservoirBlockSize; ++w) {  // a loop of its own, or some compilers interleave blocks instead of vectorising
-        weights[w] += factors[w];
-        products[w] += factors[w] * offsets_mm[w];
+      if (num_near == 0) continue;
+      for (int w = 0; w < num; ++w) {
+        if (is_near[w] == 0) continue;
+        if (found.num == kNearPoints) return;
+        found.x_mm[found.num] = block.x_mm[w];
+        found.y_mm[found.num] = block.y_mm[w];
+        found.z_mm[found.num] = block.z_mm[w];
+        ++found.num;
       }
     }
-    for (int w = 0; w < kReservoirBlockSize; ++w) {
+  }
+};
+
+/// Sums the distances along a sample's normal to the points found near it, weighted by (1 - d^2 / r^2)^2 within the radius.
+struct MeasureOffset {
+  int num_trees;
+  const SurfaceSample* surfaces;
+  const NearPoints* near;
+  float radius_mm;
+  const AlignmentState* state;
+  SurfaceOffset* offsets;
+
+  FOOTHOLD_HD void operator()(std::size_t sample) const {
+    SurfaceOffset sum{0.0F, 0.0F};
+    const SurfaceSample& surface = surfaces[sample];
+    if (state->ended == 0 && has_normal(surface)) {
+      const SE3& pose = state->scene_from_camera;
+      const Eigen::Vector3f p_mm = (pose.rotation * point_of(surface) + pose.translation) * 1000.0F;
+      add_points(near + sample * static_cast<std::size_t>(num_trees), p_mm, pose.rotation * normal_of(surface), sum);
+    }
+    offsets[sample] = sum;
+  }
+
+ private:
+  FOOTHOLD_HD FOOTHOLD_INLINE void add_points(const NearPoints* of_trees, const Eigen::Vector3f& p_mm, const Eigen::Vector3f& n,
+                                              SurfaceOffset& sum) const {
+    const float inverse_radius2 = 1.0F / (radius_mm * radius_mm);
+    float weights[kNearPoints] = {};
+    float products[kNearPoints] = {};
+    for (int tree = 0; tree < num_trees; ++tree) {
+      const NearPoints& points = of_trees[tree];
+      const int num = points.num;
+      if (num == 0) continue;
+      for (int w = 0; w < kNearPoints; ++w) {
+        const float dx = static_cast<float>(points.x_mm[w]) - p_mm.x();
+        const float dy = static_cast<float>(points.y_mm[w]) - p_mm.y();
+        const float dz = static_cast<float>(points.z_mm[w]) - p_mm.z();
+        const float closeness = 1.0F - (dx * dx + dy * dy + dz * dz) * inverse_radius2;
+        const float clipped = (closeness > 0.0F) & (w < num) ? closeness : 0.0F;
+        weights[w] += clipped * clipped;
+        products[w] += clipped * clipped * (n.x() * dx + n.y() * dy + n.z() * dz);
+      }
+    }
+    for (int w = 0; w < kNearPoints; ++w) {
       sum.weight += weights[w];
       sum.offset_mm += products[w];
     }
@@ -93,7 +133,6 @@ struct MeasureOffset {
 /// One step of the alignment by one team: each sample is drawn along its normal to the mean of the remembered points around it.
 template <class Executor>
 struct AlignWithPoints {
-  int num_trees;
   const SurfaceSample* surfaces;
   const SurfaceOffset* offsets;
   int num_samples;
@@ -130,12 +169,7 @@ struct AlignWithPoints {
     const SurfaceSample& surface = surfaces[i];
     if (!has_normal(surface)) return;
     sums[kNumWithSurface] += 1.0F;
-    SurfaceOffset sum{0.0F, 0.0F};
-    for (int tree = 0; tree < num_trees; ++tree) {
-      const SurfaceOffset& of_tree = offsets[i * static_cast<std::size_t>(num_trees) + static_cast<std::size_t>(tree)];
-      sum.weight += of_tree.weight;
-      sum.offset_mm += of_tree.offset_mm;
-    }
+    const SurfaceOffset& sum = offsets[i];
     if (sum.weight < kMinWeight) return;
     const float residual_m = sum.offset_mm / sum.weight * 1e-3F;  // along the normal, from the sample to the remembered surface
     add_point_to_plane(pose.rotation * point_of(surface), pose.rotation * normal_of(surface), residual_m, 1.0F, sums);
@@ -164,7 +198,8 @@ class Aligner {
     AlignmentState* const state = alignment.state.data();
     executor_.for_each(1, BeginAlignment{hypotheses.view(), state});
     project(ranking, state);
-    for (int i = 0; i < kLeafSteps; ++i) approach(i, pool, alignment);
+    find_near_points(pool, alignment);
+    for (int i = 0; i < kLeafSteps; ++i) approach(i, alignment);
     executor_.for_each(1, EndAlignment{state, hypotheses.view(), alignment.misfits.data()});
   }
 
@@ -174,6 +209,7 @@ class Aligner {
   static constexpr int kLeafSteps = 5;                  ///< (T)
   static constexpr float kFirstReachM = 0.06F;          ///< (T) of a sample, in the first of these steps
   static constexpr float kLastReachM = 0.04F;           ///< (T) in the last
+  static constexpr float kLargestMotionM = 0.02F;       ///< (T) of a sample in all of these steps
 
   void project(const Ranking& ranking, AlignmentState* state) const {
     const DrawnPoints points{Span<const RememberedPoint>(ranking.points)};
@@ -181,16 +217,22 @@ class Aligner {
         1, AlignByProjection<Executor, DrawnPoints>{surface_estimator(query_), points, kProjectionSteps, kProjectionDistanceM, state});
   }
 
-  void approach(int step, const CorrespondencePool& pool, Alignment& alignment) const {
+  void find_near_points(const CorrespondencePool& pool, Alignment& alignment) const {
+    executor_.for_each(alignment.surfaces.size() * static_cast<std::size_t>(num_trees_),
+                       FindNearPoints{reservoirs_, num_trees_, pool.sampled.size(), pool.leaves.data(), alignment.surfaces.data(),
+                                      1000.0F * (kFirstReachM + kLargestMotionM), alignment.state.data(), alignment.near.data()});
+  }
+
+  void approach(int step, Alignment& alignment) const {
     const auto num_samples = static_cast<int>(alignment.surfaces.size());
     const int num_used = 2 * step < kLeafSteps ? num_samples / 3 : num_samples;  // few samples suffice at first
     const float progress = static_cast<float>(step) / static_cast<float>(kLeafSteps - 1);
     const float radius_m = kFirstReachM + (kLastReachM - kFirstReachM) * progress;
-    executor_.for_each(static_cast<std::size_t>(num_used) * static_cast<std::size_t>(num_trees_),
-                       MeasureOffset{reservoirs_, num_trees_, pool.sampled.size(), pool.leaves.data(), alignment.surfaces.data(),
-                                     1000.0F * radius_m, alignment.state.data(), alignment.offsets.data()});
-    executor_.for_each_team(1, AlignWithPoints<Executor>{num_trees_, alignment.surfaces.data(), alignment.offsets.data(), num_used,
-                                                         radius_m, alignment.state.data()});
+    executor_.for_each(static_cast<std::size_t>(num_used),
+                       MeasureOffset{num_trees_, alignment.surfaces.data(), alignment.near.data(), 1000.0F * radius_m,
+                                     alignment.state.data(), alignment.offsets.data()});
+    executor_.for_each_team(
+        1, AlignWithPoints<Executor>{alignment.surfaces.data(), alignment.offsets.data(), num_used, radius_m, alignment.state.data()});
   }
 
   Executor executor_;

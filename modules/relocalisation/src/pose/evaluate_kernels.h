@@ -10,9 +10,8 @@
 namespace foothold {
 
 /// Measures final candidates over the whole pool.
-template <class Executor>
+template <int kWidth>
 struct EvaluateCandidates {
-  static constexpr int kWidth = Executor::kVectorWidth;
   CorrespondencePoolView pool;
   const SampledPixel* sampled;
   std::size_t pool_size;
@@ -23,7 +22,8 @@ struct EvaluateCandidates {
   float truncation;
   PoseCandidate* candidates;
 
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t group) const {
+  template <class Team>
+  FOOTHOLD_HD void operator()(const Team& team, std::size_t group) const {
     const std::size_t first_slot = group * static_cast<std::size_t>(kWidth);
     const PoseGroup<kWidth> poses(hypotheses, first_slot, num_candidates);
     float num_with_depth = 0.0F;

@@ -24,7 +24,13 @@ struct HypothesesView {
 
   FOOTHOLD_HD std::uint32_t at(std::size_t slot) const { return hypothesis_of(order[slot]); }
   FOOTHOLD_HD SE3& pose_at(std::size_t slot) const { return poses[at(slot)]; }
+  FOOTHOLD_HD bool has_failed(std::size_t slot) const { return energies[at(slot)] >= kFailedEnergy; }
 };
+
+/// Whether all but the first of several hypotheses have failed. Failed ones stand behind the others.
+FOOTHOLD_HD inline bool is_alone(const HypothesesView& hypotheses, std::size_t num_active) {
+  return num_active > 1 && hypotheses.has_failed(1);
+}
 
 /// Owns the hypotheses.
 struct Hypotheses {

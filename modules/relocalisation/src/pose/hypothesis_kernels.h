@@ -122,19 +122,53 @@ struct MakeEnergyKey {
   }
 };
 
-/// Draws hypotheses, whose order is that of their numbers.
-template <class Executor>
-void draw_hypotheses(const Executor& executor, const CorrespondencePoolView& pool, const SearchPlan& plan, Hypotheses& hypotheses) {
-  const auto num_hypotheses = static_cast<std::size_t>(plan.num_hypotheses);
-  executor.for_each_team(num_hypotheses, DrawHypothesis<Executor>{pool, plan, hypotheses.view()});
-  executor.for_each(num_hypotheses, MakeEnergyKey{hypotheses.view(), true});
-}
+/// Lets each hypothesis fail that is nearly the same as one before it, whatever became of that one: refined, both would become one.
+struct DropRepeats {
+  HypothesesView hypotheses;
+  float distance_m;
+  float angle_rad;
+
+  FOOTHOLD_HD void operator()(std::size_t slot) const {
+    const SE3& pose = hypotheses.pose_at(slot);
+    for (std::size_t better = 0; better < slot; ++better) {
+      if (!is_same(hypotheses.pose_at(better), pose)) continue;
+      hypotheses.energies[hypotheses.at(slot)] = kFailedEnergy;
+      return;
+    }
+  }
+
+ private:
+  /// |A - B|^2 = 8 sin^2(angle / 2), about 2 angle^2.
+  FOOTHOLD_HD bool is_same(const SE3& a, const SE3& b) const {
+    return (a.translation - b.translation).squaredNorm() < distance_m * distance_m &&
+           (a.rotation - b.rotation).squaredNorm() < 2.0F * angle_rad * angle_rad;
+  }
+};
 
 /// Orders the first slots by rising energy.
 template <class Executor>
 void sort_by_energy(const Executor& executor, std::size_t num_slots, Hypotheses& hypotheses) {
   executor.for_each(num_slots, MakeEnergyKey{hypotheses.view(), false});
   executor.sort(Span<std::uint64_t>(hypotheses.order.data(), num_slots), hypotheses.sort_buffer, 32, 64);
+}
+
+/// Draws hypotheses, whose order is that of their numbers, but for those that failed, which come last.
+template <class Executor>
+void draw_hypotheses(const Executor& executor, const CorrespondencePoolView& pool, const SearchPlan& plan, Hypotheses& hypotheses) {
+  const auto num_hypotheses = static_cast<std::size_t>(plan.num_hypotheses);
+  executor.for_each_team(num_hypotheses, DrawHypothesis<Executor>{pool, plan, hypotheses.view()});
+  executor.for_each(num_hypotheses, MakeEnergyKey{hypotheses.view(), true});
+  executor.sort(Span<std::uint64_t>(hypotheses.order), hypotheses.sort_buffer, 32, 64);
+}
+
+/// How many of the first slots hold hypotheses that have not failed, where asking costs nothing; all of them elsewhere.
+/// @pre They are sorted by energy.
+template <class Executor>
+std::size_t num_alive(const HypothesesView& hypotheses, std::size_t num_slots) {
+  if constexpr (Executor::kDevice == Device::kCpu) {
+    while (num_slots > 1 && hypotheses.has_failed(num_slots - 1)) --num_slots;
+  }
+  return num_slots;
 }
 
 }  // namespace foothold

@@ -25,7 +25,7 @@ PoseEstimator::PoseEstimator(const Context& context, const SearchPlan& plan) : p
 
 void PoseEstimator::make_room_for(const PlaceView& place, const ForestView& forest) {
   buffers_.pool.make_room(forest.num_trees, place.leaf_modes.modes.max_blocks * kModeBlockSize);
-  buffers_.alignment.offsets.resize(buffers_.alignment.surfaces.size() * static_cast<std::size_t>(forest.num_trees));
+  buffers_.alignment.near.resize(buffers_.alignment.surfaces.size() * static_cast<std::size_t>(forest.num_trees));
 }
 
 void PoseEstimator::prepare(const Context& context, const PoseQuery& query) {

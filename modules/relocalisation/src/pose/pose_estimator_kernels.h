@@ -78,10 +78,17 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
     Aligner<Executor>(context, query, place.reservoirs, forest).run(buffers.pool, buffers.ranking, hypotheses, buffers.alignment);
     confront(executor, query, hypotheses, buffers.ranking);
   }
-  executor.for_each_team(num_groups<Executor>(num_candidates),
-                         EvaluateCandidates<Executor>{pool, buffers.pool.sampled.data(), buffers.pool.sampled.size(), hypotheses.view(),
-                                                      buffers.alignment.misfits.data(), buffers.ranking.agreement.data(), num_candidates,
-                                                      plan.energy_truncation, buffers.candidates.data()});
+  for_each_group(executor, num_candidates, [&](auto width) {
+    return EvaluateCandidates<decltype(width)::value>{pool,
+                                                      buffers.pool.sampled.data(),
+                                                      buffers.pool.sampled.size(),
+                                                      hypotheses.view(),
+                                                      buffers.alignment.misfits.data(),
+                                                      buffers.ranking.agreement.data(),
+                                                      num_candidates,
+                                                      plan.energy_truncation,
+                                                      buffers.candidates.data()};
+  });
   if (plan.confronts_scene) rejoin(executor, query, place.latest, buffers.alignment, buffers.candidates);
 }
 
@@ -90,7 +97,7 @@ template <class Executor>
 void PoseAlgorithms<Executor>::preempt(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers) {
   const CorrespondencePoolView pool = buffers.pool.view();
   Hypotheses& hypotheses = buffers.hypotheses;
-  std::size_t num_active = hypotheses.poses.size();
+  std::size_t num_active = num_alive<Executor>(hypotheses.view(), hypotheses.poses.size());
   const auto score_and_sort = [&](const ScoredSamples& samples) {
     score(executor, pool, samples, plan.energy_truncation, num_active, hypotheses);
     sort_by_energy(executor, num_active, hypotheses);
@@ -104,11 +111,20 @@ void PoseAlgorithms<Executor>::preempt(const Executor& executor, const SearchPla
     score_and_sort({plan.first_cull_samples, kCullSamples, false});
   }
   keep(plan.cull_survivors);
+  if (plan.drops_repeats) {
+    executor.for_each(num_active, DropRepeats{hypotheses.view(), kSameHypothesisM, kSameHypothesisRad});
+    sort_by_energy(executor, num_active, hypotheses);
+  }
 
-  // The rounds: more samples, better poses, half as many.
-  for (int num_samples = kCullSamples; num_active > 1; num_active /= 2) {
+  // The rounds: more samples, better poses, fewer of them.
+  int num_samples = kCullSamples;
+  for (int num_kept = plan.cull_survivors; num_kept > 1; num_kept /= plan.round_divisor) {
+    keep(num_kept);
+    num_active = num_alive<Executor>(hypotheses.view(), num_active);
     num_samples += plan.round_samples;
+    if (num_active == 1) break;
     refine(executor, pool, {std::min(num_samples, plan.pool_size), plan.round_iterations}, num_active, hypotheses, buffers.assignments);
+    if (plan.drops_repeats) executor.for_each(num_active, DropRepeats{hypotheses.view(), kSameRefinedM, kSameRefinedRad});
     score_and_sort({0, num_samples, true});
   }
 }

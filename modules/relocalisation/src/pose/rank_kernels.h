@@ -98,6 +98,7 @@ struct JudgeCandidates {
   SceneEvidence* evidence;  ///< per hypothesis
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t slot) const {
+    if (hypotheses.has_failed(slot)) return;
     const std::uint32_t hypothesis = hypotheses.at(slot);
     const Eigen::Matrix3f camera_from_scene = hypotheses.poses[hypothesis].rotation.transpose();
     const Eigen::Vector3f camera_scene = hypotheses.poses[hypothesis].translation;

@@ -12,11 +12,9 @@
 namespace foothold {
 
 /// Fixes each sample's mode for a round: the nearest by Mahalanobis distance, unless it is further than the radius.
-/// nearest[(group * num_samples + sample) * kWidth + lane] is the mode's position among the pixel's modes, or kNoMode.
-template <class Executor>
+/// nearest[slot * num_samples + sample] is the mode's position among the pixel's modes, or kNoMode.
+template <int kWidth>
 struct AssignModes {
-  static constexpr int kWidth = Executor::kVectorWidth;
-  static_assert(kLargestGroup % kWidth == 0, "ModeAssignments has room for whole groups");
   CorrespondencePoolView pool;
   HypothesesView hypotheses;
   std::size_t num_active;
@@ -24,21 +22,24 @@ struct AssignModes {
   float radius_m;
   std::uint16_t* nearest;
 
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t group) const {
-    const PoseGroup<kWidth> poses(hypotheses, group * static_cast<std::size_t>(kWidth), num_active);
-    std::uint16_t* out = nearest + group * num_samples * static_cast<std::size_t>(kWidth);
+  template <class Team>
+  FOOTHOLD_HD void operator()(const Team& team, std::size_t group) const {
+    const std::size_t first_slot = group * static_cast<std::size_t>(kWidth);
+    if (is_alone(hypotheses, num_active) || hypotheses.has_failed(first_slot)) return;
+    const PoseGroup<kWidth> poses(hypotheses, first_slot, num_active);
+    const int num_rows = num_active - first_slot < kWidth ? static_cast<int>(num_active - first_slot) : kWidth;
+    std::uint16_t* const rows = nearest + first_slot * num_samples;
     for (std::uint32_t s = static_cast<std::uint32_t>(team.lane()); s < num_samples; s += static_cast<std::uint32_t>(team.size())) {
-      std::uint16_t* const row = out + s * static_cast<std::uint32_t>(kWidth);
-      if (s < *pool.num_pixels) {
-        assign_sample(poses, pool.pixels[s], row);
-      } else {
-        for (int w = 0; w < kWidth; ++w) row[w] = kNoMode;
-      }
+      std::uint16_t assigned[kWidth];
+      for (int w = 0; w < kWidth; ++w) assigned[w] = kNoMode;
+      if (s < *pool.num_pixels) assign_sample(poses, pool.pixels[s], assigned);
+      for (int w = 0; w < num_rows; ++w) rows[static_cast<std::uint32_t>(w) * num_samples + s] = assigned[w];
     }
   }
 
  private:
-  FOOTHOLD_HD FOOTHOLD_INLINE void assign_sample(const PoseGroup<kWidth>& poses, const PooledPixel& pixel, std::uint16_t* row) const {
+  FOOTHOLD_HD FOOTHOLD_INLINE void assign_sample(const PoseGroup<kWidth>& poses, const PooledPixel& pixel,
+                                                 std::uint16_t (&assigned)[kWidth]) const {
     float best[kWidth];
     float distance2[kWidth];
     std::int32_t position[kWidth];
@@ -53,7 +54,7 @@ struct AssignModes {
       distance2[w] = nearer ? mode_distance2 : distance2[w];
       position[w] = nearer ? mode : position[w];
     });
-    for (int w = 0; w < kWidth; ++w) row[w] = static_cast<std::uint16_t>(distance2[w] < radius_m * radius_m ? position[w] : kNoMode);
+    for (int w = 0; w < kWidth; ++w) assigned[w] = static_cast<std::uint16_t>(distance2[w] < radius_m * radius_m ? position[w] : kNoMode);
   }
 };
 
@@ -77,19 +78,28 @@ FOOTHOLD_HD inline SE3 perturbed(const SE3& pose, const float* twist) {
   return {step.rotation * pose.rotation, pose.translation + step.translation};
 }
 
+/// Below this a step of refinement is the last: rotation [rad] and translation [m].
+inline constexpr float kConvergedTwist = 2e-4F;
+
 /// Refines one hypothesis on its samples' fixed modes.
 template <class Executor>
 struct RefineHypothesis {
   static constexpr int kWidth = Executor::kVectorWidth;
+  /// Where vectors are loaded, samples with a mode are packed one behind another first: they are visited in every step.
+  static constexpr bool kPacks = kWidth > 1;
   CorrespondencePoolView pool;
   HypothesesView hypotheses;
+  std::size_t num_active;
   std::uint32_t num_samples;
   const std::uint16_t* nearest;
+  float* packed;  ///< num_active x kNumPacked x padded num_samples, if packed
   int num_iterations;
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t slot) const {
+    if (is_alone(hypotheses, num_active) || hypotheses.has_failed(slot)) return;
     SE3& hypothesis = hypotheses.pose_at(slot);
-    const std::uint16_t* assigned = nearest + slot / kWidth * num_samples * static_cast<std::size_t>(kWidth) + slot % kWidth;
+    const std::uint16_t* const assigned = nearest + slot * num_samples;
+    const Samples samples = kPacks ? pack(slot, assigned) : Samples{assigned, nullptr, 0, num_samples};
     SE3 best = hypothesis;
     SE3 trial = best;
     float best_sums[kNumRefinementSums];
@@ -97,7 +107,7 @@ struct RefineHypothesis {
     float lambda = 1e-3F;
     for (int iteration = 0; iteration < num_iterations; ++iteration) {
       float sums[kNumRefinementSums];
-      accumulate(team, trial, assigned, sums);
+      accumulate(team, trial, samples, sums);
       if (sums[kNumRefinementSums - 1] <= best_sums[kNumRefinementSums - 1]) {
         for (int k = 0; k < kNumRefinementSums; ++k) best_sums[k] = sums[k];
         best = trial;
@@ -106,7 +116,7 @@ struct RefineHypothesis {
         lambda *= 100.0F;
       }
       float twist[6];
-      if (!solve_for_twist(best_sums, lambda, twist)) break;
+      if (!solve_for_twist(best_sums, lambda, twist) || is_converged(twist)) break;
       trial = perturbed(best, twist);
     }
     team.sync();
@@ -114,16 +124,61 @@ struct RefineHypothesis {
   }
 
  private:
+  /// What is summed over: all samples with what they were assigned, or those with a mode, packed.
+  struct Samples {
+    const std::uint16_t* assigned;
+    const float* rows;     ///< point, mean and precision; a row for each number
+    std::uint32_t stride;  ///< of rows
+    std::uint32_t count;
+  };
+
+  FOOTHOLD_HD static bool is_converged(const float (&twist)[6]) {
+    float longest = 0.0F;
+    for (int k = 0; k < 6; ++k) longest = std::fabs(twist[k]) > longest ? std::fabs(twist[k]) : longest;
+    return longest < kConvergedTwist;
+  }
+
+  FOOTHOLD_HD Samples pack(std::size_t slot, const std::uint16_t* assigned) const {
+    const std::uint32_t stride = padded_samples(num_samples);
+    float* const rows = packed + slot * static_cast<std::size_t>(stride) * kNumPacked;
+    std::uint32_t count = 0;
+    for (std::uint32_t s = 0; s < num_samples; ++s) {
+      if (assigned[s] == kNoMode) continue;
+      const PooledPixel& pixel = pool.pixels[s];
+      const Mode& mode = pool.modes[pixel.first_mode + assigned[s]];
+      for (std::uint32_t k = 0; k < 3; ++k) rows[k * stride + count] = pixel.point_camera[k];
+      for (std::uint32_t k = 0; k < 3; ++k) rows[(3 + k) * stride + count] = mode.mean_m[k];
+      for (std::uint32_t k = 0; k < 6; ++k) rows[(6 + k) * stride + count] = mode.precision[k];
+      ++count;
+    }
+    const std::uint32_t padded = padded_samples(count);
+    for (std::uint32_t k = 0; k < kNumPacked; ++k) {  // a precision of zero makes a sample count for nothing
+      for (std::uint32_t s = count; s < padded; ++s) rows[k * stride + s] = 0.0F;
+    }
+    return {assigned, rows, stride, padded};
+  }
+
   /// Cost, gradient and Gauss-Newton Hessian of sum rho(r' P r), rho(q) = 2 (sqrt(1 + q) - 1): quadratic near a mode, linear far from it.
-  FOOTHOLD_HD void accumulate(const typename Executor::Team& team, const SE3& pose, const std::uint16_t* assigned,
+  FOOTHOLD_HD void accumulate(const typename Executor::Team& team, const SE3& pose, const Samples& samples,
                               float (&sums)[kNumRefinementSums]) const {
     float acc[kNumRefinementSums][kWidth] = {};
-    for (std::uint32_t first = static_cast<std::uint32_t>(team.lane() * kWidth); first < num_samples;
+    for (std::uint32_t first = static_cast<std::uint32_t>(team.lane() * kWidth); first < samples.count;
          first += static_cast<std::uint32_t>(team.size() * kWidth)) {
       float point[3][kWidth];
       float mean[3][kWidth];
       float precision[6][kWidth];
-      load(first, assigned, point, mean, precision);
+      if constexpr (kPacks) {
+        const float* const row = samples.rows + first;
+        for (std::uint32_t k = 0; k < 3; ++k) {
+          for (std::uint32_t w = 0; w < kWidth; ++w) point[k][w] = row[k * samples.stride + w];
+          for (std::uint32_t w = 0; w < kWidth; ++w) mean[k][w] = row[(3 + k) * samples.stride + w];
+        }
+        for (std::uint32_t k = 0; k < 6; ++k) {
+          for (std::uint32_t w = 0; w < kWidth; ++w) precision[k][w] = row[(6 + k) * samples.stride + w];
+        }
+      } else if (!load(first, samples.assigned[first], point, mean, precision)) {
+        continue;
+      }
       add_samples(pose, point, mean, precision, acc);
     }
     for (int k = 0; k < kNumRefinementSums; ++k) {
@@ -133,22 +188,16 @@ struct RefineHypothesis {
     team.sum_all(sums);
   }
 
-  FOOTHOLD_HD FOOTHOLD_INLINE void load(std::uint32_t first, const std::uint16_t* assigned, float (&point)[3][kWidth],
-                                        float (&mean)[3][kWidth], float (&precision)[6][kWidth]) const {
-    for (int w = 0; w < kWidth; ++w) {
-      const std::uint32_t s = first + static_cast<std::uint32_t>(w);
-      const std::uint16_t position = s < num_samples ? assigned[s * static_cast<std::uint32_t>(kWidth)] : kNoMode;
-      if (position == kNoMode) {  // a precision of zero makes the sample count for nothing
-        for (int k = 0; k < 3; ++k) point[k][w] = mean[k][w] = 0.0F;
-        for (int k = 0; k < 6; ++k) precision[k][w] = 0.0F;
-        continue;
-      }
-      const PooledPixel& pixel = pool.pixels[s];
-      const Mode& mode = pool.modes[pixel.first_mode + position];
-      for (int k = 0; k < 3; ++k) point[k][w] = pixel.point_camera[k];
-      for (int k = 0; k < 3; ++k) mean[k][w] = mode.mean_m[k];
-      for (int k = 0; k < 6; ++k) precision[k][w] = mode.precision[k];
-    }
+  /// Loads one sample. @return False if it has no mode.
+  FOOTHOLD_HD FOOTHOLD_INLINE bool load(std::uint32_t sample, std::uint16_t position, float (&point)[3][kWidth], float (&mean)[3][kWidth],
+                                        float (&precision)[6][kWidth]) const {
+    if (position == kNoMode) return false;
+    const PooledPixel& pixel = pool.pixels[sample];
+    const Mode& mode = pool.modes[pixel.first_mode + position];
+    for (int k = 0; k < 3; ++k) point[k][0] = pixel.point_camera[k];
+    for (int k = 0; k < 3; ++k) mean[k][0] = mode.mean_m[k];
+    for (int k = 0; k < 6; ++k) precision[k][0] = mode.precision[k];
+    return true;
   }
 
   FOOTHOLD_HD FOOTHOLD_INLINE void add_samples(const SE3& pose, const float (&point)[3][kWidth], const float (&mean)[3][kWidth],
@@ -216,15 +265,17 @@ struct Refinement {
   int num_iterations;
 };
 
-/// Refines the hypotheses in the first slots.
+/// Refines the hypotheses in the first slots that have not failed; of several, not if only one of them is left, which has won.
 template <class Executor>
 void refine(const Executor& executor, const CorrespondencePoolView& pool, const Refinement& how, std::size_t num_active,
             Hypotheses& hypotheses, ModeAssignments& assignments) {
   const auto num_samples = static_cast<std::uint32_t>(how.num_samples);
-  executor.for_each_team(num_groups<Executor>(num_active), AssignModes<Executor>{pool, hypotheses.view(), num_active, num_samples,
-                                                                                 kRefinementRadiusM, assignments.nearest.data()});
-  executor.for_each_team(num_active,
-                         RefineHypothesis<Executor>{pool, hypotheses.view(), num_samples, assignments.nearest.data(), how.num_iterations});
+  std::uint16_t* const nearest = assignments.nearest.data();
+  for_each_group(executor, num_active, [&](auto width) {
+    return AssignModes<decltype(width)::value>{pool, hypotheses.view(), num_active, num_samples, kRefinementRadiusM, nearest};
+  });
+  executor.for_each_team(num_active, RefineHypothesis<Executor>{pool, hypotheses.view(), num_active, num_samples, nearest,
+                                                                assignments.packed.data(), how.num_iterations});
 }
 
 }  // namespace foothold

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "pose/hypotheses.h"
 #include "pose/pool.h"
@@ -69,9 +70,8 @@ FOOTHOLD_HD FOOTHOLD_INLINE void scan_modes(const PoseGroup<kWidth>& poses, cons
 }
 
 /// Adds to each hypothesis' energy the samples [first, last): the truncated Mahalanobis distance to the nearest mode.
-template <class Executor>
+template <int kWidth>
 struct ScoreGroup {
-  static constexpr int kWidth = Executor::kVectorWidth;
   CorrespondencePoolView pool;
   HypothesesView hypotheses;
   std::size_t num_active;
@@ -80,8 +80,10 @@ struct ScoreGroup {
   bool restart;  ///< forget the energies so far, but for those of failed draws
   float truncation;
 
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t group) const {
+  template <class Team>
+  FOOTHOLD_HD void operator()(const Team& team, std::size_t group) const {
     const std::size_t first_slot = group * static_cast<std::size_t>(kWidth);
+    if (hypotheses.has_failed(first_slot)) return;
     const PoseGroup<kWidth> poses(hypotheses, first_slot, num_active);
     const std::uint32_t end = last < *pool.num_pixels ? last : *pool.num_pixels;
     float sum[kWidth] = {};
@@ -105,11 +107,19 @@ struct ScoreGroup {
   }
 };
 
-/// The groups that a number of hypotheses makes.
-template <class Executor>
-constexpr std::size_t num_groups(std::size_t num_hypotheses) {
-  constexpr std::size_t kWidth = Executor::kVectorWidth;
-  return (num_hypotheses + kWidth - 1) / kWidth;
+/// Runs the body that make_body(width) returns, over hypotheses in groups of that width: few are not padded to a whole vector.
+template <class Executor, class MakeBody>
+void for_each_group(const Executor& executor, std::size_t num_hypotheses, const MakeBody& make_body) {
+  constexpr int kWidest = Executor::kVectorWidth;
+  const auto run = [&](auto width) {
+    constexpr std::size_t kWidth = decltype(width)::value;
+    executor.for_each_team((num_hypotheses + kWidth - 1) / kWidth, make_body(width));
+  };
+  if constexpr (kWidest > 1) {
+    if (num_hypotheses == 1) return run(std::integral_constant<int, 1>{});
+    if (num_hypotheses <= kWidest / 2) return run(std::integral_constant<int, kWidest / 2>{});
+  }
+  run(std::integral_constant<int, kWidest>{});
 }
 
 /// Samples of the pool by which hypotheses are scored.
@@ -122,9 +132,15 @@ struct ScoredSamples {
 template <class Executor>
 void score(const Executor& executor, const CorrespondencePoolView& pool, const ScoredSamples& samples, float truncation,
            std::size_t num_active, Hypotheses& hypotheses) {
-  executor.for_each_team(num_groups<Executor>(num_active),
-                         ScoreGroup<Executor>{pool, hypotheses.view(), num_active, static_cast<std::uint32_t>(samples.first),
-                                              static_cast<std::uint32_t>(samples.last), samples.restart, truncation});
+  for_each_group(executor, num_active, [&](auto width) {
+    return ScoreGroup<decltype(width)::value>{pool,
+                                              hypotheses.view(),
+                                              num_active,
+                                              static_cast<std::uint32_t>(samples.first),
+                                              static_cast<std::uint32_t>(samples.last),
+                                              samples.restart,
+                                              truncation};
+  });
 }
 
 }  // namespace foothold

@@ -14,6 +14,12 @@ inline constexpr int kCullSamples = 500;
 /// Hypotheses that survive a first, coarse cull (T).
 inline constexpr int kFirstCullSurvivors = 256;
 
+/// Hypotheses nearer to one another than this are one, of which the best is kept: before they are refined, and after (T).
+inline constexpr float kSameHypothesisM = 0.10F;
+inline constexpr float kSameHypothesisRad = 0.10F;
+inline constexpr float kSameRefinedM = 0.03F;
+inline constexpr float kSameRefinedRad = 0.03F;
+
 /// What the stages of a search do. The paper's numbers stand in as_published().
 struct SearchPlan {
   SearchPlan(const PoseEstimatorSettings& settings, std::uint64_t the_seed)
@@ -36,6 +42,8 @@ struct SearchPlan {
   float energy_truncation = 3.0F;      ///< (T) Mahalanobis distance at which a sample's energy saturates
   int round_iterations = 3;            ///< (T) Levenberg-Marquardt steps of a round
   int final_iterations = 4;            ///< (T) Levenberg-Marquardt steps of the best hypothesis, on the whole pool
+  bool drops_repeats = true;           ///< (T) keep one of several hypotheses that are nearly the same
+  int round_divisor = 4;               ///< (T) one of so many hypotheses survives a round
   bool confronts_scene = true;         ///< (T) rank the candidates by, and align the best with, points of the whole scene
 
  private:
@@ -49,6 +57,8 @@ struct SearchPlan {
     energy_truncation = 1e6F;  // (P) none
     round_iterations = 10;     // (R)
     final_iterations = 10;     // (R)
+    drops_repeats = false;     // (P)
+    round_divisor = 2;         // (P)
     confronts_scene = false;   // (P)
   }
 };
