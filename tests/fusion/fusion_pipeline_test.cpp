@@ -235,7 +235,8 @@ TEST_CASE("FusionPipeline: malformed frames count as lost ones, before and after
   FusionPipeline pipeline(Context(), {}, &oracle);
   RgbdFrame malformed = test::office().frame(0);
   malformed.colour = Image<Rgb8>(8, 8);
-  for (const Frame& frame : {malformed.view(), Frame{}, black_frame(0).view()}) {
+  const RgbdFrame black = black_frame(0);
+  for (const Frame& frame : {malformed.view(), Frame{}, black.view()}) {
     const FusionFrameResult result = pipeline.process(frame);
     REQUIRE(result.state == RecoveryState::kLost);
     REQUIRE_FALSE(result.world_from_camera.has_value());
