@@ -105,7 +105,7 @@ TEST_CASE("open_sequence: ground truth that was lost throughout leaves frames wi
   CHECK_FALSE(open_sequence(temp.path(), log.context)->load(0).world_from_camera.has_value());
   CHECK_THAT(log.warnings, Contains("none of its 3 frames has a pose"));
   write_text(temp / "groundtruth.txt", "0.5 0 0 0 0 0 0 1\n1.8 0 0 0 0 0 0 1\n");
-  CHECK_THAT(open_error(temp.path()), Contains("no pose within 0.1 s"));
+  CHECK_THAT(reading_error(temp.path()), Contains("no pose within 0.1 s"));
 }
 
 TEST_CASE("open_sequence: a TUM folder without ground truth has frames without poses") {
