@@ -155,6 +155,16 @@ TEST_CASE("open_sequence: reads ScanNet's exported folders") {
   CHECK_THAT(log.warnings, Contains("1 images left out"));
 }
 
+TEST_CASE("open_sequence: images of a kind that is not read are told") {
+  const TempFolder temp;
+  write_images(temp / "depth/", temp / "rgb/", 1);
+  for (std::size_t i = 0; i < room_frames().size(); ++i) {
+    const std::string stem = temp / ("depth/" + std::to_string(i));
+    fs::rename(stem + ".png", stem + ".exr");
+  }
+  CHECK_THAT(error_of([&] { open_sequence(temp.path(), Context()); }), Contains("depth image, a PNG or PGM of 16 bits"));
+}
+
 TEST_CASE("open_sequence: reads .sens files, by themselves or in their folder") {
   const TempFolder temp;
   write_text(temp / "scene.sens", sens_bytes(temp / "scratch.png", 4));

@@ -65,6 +65,10 @@ std::optional<SE3> depth_from_colour(const fs::path& folder) {
 
 std::vector<RecordedFrame> pair_by_number(const std::map<long, fs::path>& depth, const std::map<long, fs::path>& colour,
                                           const fs::path& folder, const Context& context, std::vector<long>& numbers) {
+  for (const auto& [images, kind] : {std::pair{&depth, "depth image, a PNG or PGM of 16 bits"}, {&colour, "colour image, a PNG or JPEG"}}) {
+    if (images->empty())
+      throw FileError(folder.string() + ": got no images of a kind that is read, expected at least one numbered " + kind);
+  }
   std::vector<RecordedFrame> frames;
   for (const auto& [number, depth_file] : depth) {
     const auto colour_file = colour.find(number);
