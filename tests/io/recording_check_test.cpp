@@ -78,7 +78,7 @@ TEST_CASE("check_recording: depth in another unit is told by its median, or by p
     RoomFormat format;
     format.units_per_m = 1.0;
     write_room_as_seven_scenes(temp.path(), format);
-    CHECK_THAT(warnings_of(temp.path(), with_scale(1.0)), !Contains("--pose-convention"));
+    CHECK_THAT(warnings_of(temp.path(), with_scale(1.0)), Contains("steps of 1 m") && !Contains("--pose-convention"));
   }
   SECTION("whole metres") {
     RoomFormat format;

@@ -44,6 +44,11 @@ constexpr double kHardlySeen = 0.1;
 /// Recordings with less depth than this are hardly worth the name.
 constexpr double kLeastValidFraction = 0.05;
 
+/// Depth in longer steps [m] tells nothing about poses.
+constexpr double kCoarseStep_m = 0.05;
+
+bool is_coarse(const RecordingFacts& facts) { return 1.0 / facts.depth_units_per_m > kCoarseStep_m; }
+
 std::string percent(double fraction) { return std::to_string(std::lround(100.0 * fraction)) + " %"; }
 
 std::string metres(double distance_m) {
@@ -151,6 +156,7 @@ void check_poses(const Recording& recording, const Pairs& pairs, RecordingCheck&
     check.poses_fit = as_read.score > std::max(score(0.5), score(2.0)) + kLeastGain;
     return;
   }
+  if (is_coarse(facts)) return;
   io::Reading best;
   io::Agreement best_agreement;
   for (const io::Reading& reading : other_readings(facts, pairs.motion_m, check.median_depth_m)) {
@@ -206,6 +212,10 @@ void warn_of_depth(const RecordingFacts& facts, RecordingCheck& check) {
                              std::to_string(check.num_depth_frames) + " frames looked at have depth");
   }
   if (check.valid_fraction == 0.0) return;
+  if (is_coarse(facts)) {
+    check.warnings.push_back(subject + "depth comes in steps of " + metres(1.0 / facts.depth_units_per_m) + " (" + facts.depth_unit_source +
+                             "), too coarse to follow or find a camera by");
+  }
   const bool unlikely = is_unlikely(check);
   double unit = check.better_depth_units_per_m;
   if (unit == 0.0 && unlikely && !check.poses_fit) unit = plausible_unit(facts, check.median_depth_m);
@@ -222,7 +232,7 @@ void warn_of_depth(const RecordingFacts& facts, RecordingCheck& check) {
 }
 
 void warn_of_poses(const RecordingFacts& facts, RecordingCheck& check) {
-  if (check.num_pose_pairs == 0 || is_unlikely(check) || check.better_depth_units_per_m != 0.0) return;
+  if (check.num_pose_pairs == 0 || is_coarse(facts) || is_unlikely(check) || check.better_depth_units_per_m != 0.0) return;
   const std::string subject =
       facts.folder + ": only " + percent(check.pose_agreement) + " of the depth agrees between frames, by their poses";
   if (!check.better_convention.empty() && facts.pose_convention == "as-is") {
