@@ -218,6 +218,20 @@ TEST_CASE("open_sequence: each thing missing from a 7-Scenes folder is named") {
   CHECK_THAT(reading_error(temp.path()), Contains(temp / name) && Contains("no such file"));
 }
 
+TEST_CASE("open_sequence: the last frame of a recording that was killed may lack an image, and is left out with a warning") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 3);
+  fs::remove(temp / "timestamps.txt");
+  fs::remove(temp / GENERATE(as<std::string>{}, "frame-000002.color.png", "frame-000002.depth.png"));
+  ContextOptions options;
+  std::string warnings;
+  options.log = [&](LogLevel level, const std::string& message) { warnings += level == LogLevel::kWarning ? message : ""; };
+  CHECK(open_sequence(temp.path(), Context(options))->num_frames() == 2);
+  CHECK_THAT(warnings, Contains("frame 2, the last, lacks an image and is left out"));
+  fs::remove(temp / "frame-000001.depth.png");
+  CHECK_THAT(open_error(temp.path()), Contains("frame-000001.depth.png") && Contains("no such file"));
+}
+
 TEST_CASE("open_sequence: a gap in the numbering is explained") {
   const TempFolder temp;
   write_small_recording(temp.path(), 4);

@@ -15,6 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kTimestampsFile = "timestamps.txt";  ///< what a recording ends with
+
 /// Which files of a frame a folder holds.
 struct FrameFiles {
   std::string depth_suffix;   ///< empty if there is no depth
@@ -61,10 +63,18 @@ std::map<int, FrameFiles> list_frames(const fs::path& folder) {
   throw FileError((folder / name).string() + ": no such file, but " + reason);
 }
 
-/// The files of frames 0, 1, ...; complains about the first image that is missing.
-std::vector<FrameFiles> complete_frames(const fs::path& folder) {
+/// The files of frames 0, 1, ...; complains about the first image that is missing. The last frame of a recording that was not finished, as
+/// its missing times tell, may lack one: its recorder was killed while it wrote.
+std::vector<FrameFiles> complete_frames(const fs::path& folder, const Context& context) {
   std::vector<FrameFiles> frames;
-  for (const auto& [index, files] : list_frames(folder)) {
+  const std::map<int, FrameFiles> found = list_frames(folder);
+  const bool is_unfinished = !fs::exists(folder / kTimestampsFile);
+  for (const auto& [index, files] : found) {
+    const bool is_last = index == found.rbegin()->first && index > 0;
+    if (is_unfinished && is_last && (files.depth_suffix.empty() || files.colour_suffix.empty())) {
+      context.log(LogLevel::kWarning, folder.string() + ": frame " + std::to_string(index) + ", the last, lacks an image and is left out");
+      break;
+    }
     const int expected = static_cast<int>(frames.size());
     const std::string reason = "frames are numbered from 0 without gaps, and there are files of frame " + std::to_string(index);
     if (index != expected) throw_missing(folder, frame_name(expected, ".depth.png"), reason);
@@ -78,7 +88,7 @@ std::vector<FrameFiles> complete_frames(const fs::path& folder) {
 
 /// Times of the frames [s]: from timestamps.txt, or 30 Hz.
 std::vector<double> read_timestamps(const fs::path& folder, std::size_t num_frames, const Context& context) {
-  const fs::path file = folder / "timestamps.txt";
+  const fs::path file = folder / kTimestampsFile;
   if (fs::exists(file)) {
     std::vector<double> times = parse_timestamps(read_text(file, kMaxListFileBytes), num_frames, file);
     const double s_per_unit = seconds_per_unit(times);
@@ -114,7 +124,7 @@ std::vector<double> parse_timestamps(std::string_view text, std::size_t num_fram
 }
 
 FoundRecording read_seven_scenes(const fs::path& folder, const Context& context) {
-  const std::vector<FrameFiles> files = complete_frames(folder);
+  const std::vector<FrameFiles> files = complete_frames(folder, context);
   const std::vector<double> times_s = read_timestamps(folder, files.size(), context);
   FoundRecording found;
   found.folder = folder;
