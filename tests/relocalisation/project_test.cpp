@@ -111,7 +111,7 @@ TEST_CASE("Rejoin: a pose is drawn to the points of the latest camera, unless fe
     const auto mm = [&](int k) { return static_cast<std::int16_t>(std::lround(1000.0F * point.point_scene[k])); };
     in_view.push_back({mm(0), mm(1), mm(2), 0});
   }
-  std::vector<ReservoirPoint> hardly_in_view(8 * in_view.size(), {0, 0, -30000, 0});
+  std::vector<ReservoirPoint> hardly_in_view(2 * in_view.size(), {0, 0, -30000, 0});
   std::copy(in_view.begin(), in_view.end(), hardly_in_view.begin());
   const std::vector<ReservoirPoint> without_depth(2000);
   const struct {

@@ -13,7 +13,7 @@ namespace foothold {
 struct DrawnPoints {
   Span<const RememberedPoint> points;
 
-  FOOTHOLD_HD float min_supported() const { return 100.0F; }
+  FOOTHOLD_HD static float min_supported(float) { return 100.0F; }
   FOOTHOLD_HD std::size_t size() const { return points.size(); }
   FOOTHOLD_HD bool get(std::size_t i, Eigen::Vector3f& point_scene) const {
     const RememberedPoint& point = points[i];
@@ -26,7 +26,7 @@ struct DrawnPoints {
 template <class Executor, class Points>
 struct AlignByProjection {
   SurfaceEstimator estimator;
-  Points points;  ///< with size(), get(), and min_supported(): fewer of them on surfaces of the frame leave the pose as it is (T)
+  Points points;  ///< with size(), get(), and min_supported(): fewer of so many on surfaces of the frame leave the pose as it is (T)
   int num_steps;
   float distance_m;  ///< points further from the surface count nothing; twice that in the first half of the steps
   AlignmentState* state;
@@ -45,18 +45,21 @@ struct AlignByProjection {
     const auto num_points = static_cast<std::uint32_t>(points.size());
     for (auto i = static_cast<std::uint32_t>(team.lane()); i < num_points; i += static_cast<std::uint32_t>(team.size())) {
       Eigen::Vector3f point_scene;
-      if (points.get(i, point_scene)) add_point(pose, point_scene, reach_m, sums);
+      if (!points.get(i, point_scene)) continue;
+      sums[kNumValid] += 1.0F;
+      add_point(pose, point_scene, reach_m, sums);
     }
     team.sum_all(sums);
     if (team.lane() != 0) return;
     float twist[6];
-    if (sums[kNumSupported] >= points.min_supported() && solve_for_twist(sums, kDamping, twist)) {
+    if (sums[kNumSupported] >= points.min_supported(sums[kNumValid]) && solve_for_twist(sums, kDamping, twist)) {
       state->scene_from_camera = perturbed(pose, twist);
     }
   }
 
   static constexpr int kNumSupported = kNumHessian + 6;  ///< points on a surface of the frame
-  static constexpr int kNumSums = kNumSupported + 1;
+  static constexpr int kNumValid = kNumSupported + 1;    ///< points that exist
+  static constexpr int kNumSums = kNumSupported + 2;
   static constexpr float kDamping = 1e-4F;
   static constexpr float kNearestM = 0.3F;
 

@@ -14,7 +14,7 @@ namespace foothold {
 struct LatestPoints {
   Span<const ReservoirPoint> points;
 
-  FOOTHOLD_HD float min_supported() const { return 0.25F * static_cast<float>(points.size()); }
+  FOOTHOLD_HD static float min_supported(float num_points) { return 0.6F * num_points; }
   FOOTHOLD_HD std::size_t size() const { return points.size(); }
   FOOTHOLD_HD bool get(std::size_t i, Eigen::Vector3f& point_scene) const {
     const ReservoirPoint& point = points[i];
