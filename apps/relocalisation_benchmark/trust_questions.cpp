@@ -6,8 +6,8 @@
 
 #include "foothold/base/random.h"
 #include "foothold/evaluation/view_overlap.h"
+#include "foothold/synthetic/turned_frame.h"
 #include "foothold/synthetic/view_effects.h"
-#include "turned_frame.h"
 
 namespace foothold::benchmark {
 namespace {

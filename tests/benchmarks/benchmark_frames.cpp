@@ -12,23 +12,6 @@
 #include "packed_recording.h"
 
 namespace foothold::benchmark {
-namespace {
-
-template <class T>
-Image<T> quarter_turned(const Image<T>& image) {
-  Image<T> turned(image.height(), image.width());
-  for (int v = 0; v < turned.height(); ++v) {
-    for (int u = 0; u < turned.width(); ++u) turned(u, v) = image(image.width() - 1 - v, u);
-  }
-  return turned;
-}
-
-Intrinsics quarter_turned(const Intrinsics& intrinsics, int width) {
-  return {intrinsics.fy, intrinsics.fx, intrinsics.cy, static_cast<float>(width - 1) - intrinsics.cx};
-}
-
-}  // namespace
-
 std::unique_ptr<Sequence> open_recording(const std::string& sequence, int num_frames) {
   if (is_synthetic_spec(sequence)) {
     SyntheticSequenceSettings settings = parse_synthetic_spec(sequence);
@@ -56,19 +39,6 @@ std::vector<RgbdFrame> load_frames(const std::string& sequence, int num_frames, 
                           std::to_string(min_frames));
   }
   return loaded;
-}
-
-RgbdFrame quarter_turned(const RgbdFrame& frame) {
-  RgbdFrame turned = frame;
-  turned.depth = quarter_turned(frame.depth);
-  turned.colour = quarter_turned(frame.colour);
-  turned.calibration.depth = quarter_turned(frame.calibration.depth, frame.depth.width());
-  turned.calibration.colour = quarter_turned(frame.calibration.colour, frame.colour.width());
-  SE3 unturned_from_turned;
-  unturned_from_turned.rotation << 0.0F, -1.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 0.0F, 1.0F;
-  turned.calibration.depth_from_colour = unturned_from_turned.inverse() * frame.calibration.depth_from_colour * unturned_from_turned;
-  if (frame.world_from_camera) turned.world_from_camera = *frame.world_from_camera * unturned_from_turned;
-  return turned;
 }
 
 }  // namespace foothold::benchmark

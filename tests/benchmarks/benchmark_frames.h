@@ -17,7 +17,4 @@ std::unique_ptr<Sequence> open_recording(const std::string& sequence, int num_fr
 /// The first frames of a sequence that have poses, at most `num_frames`. @throws InvalidSettings if these are fewer than `min_frames`.
 std::vector<RgbdFrame> load_frames(const std::string& sequence, int num_frames, int min_frames);
 
-/// The frame that the same camera takes when it is turned by 90 degrees about its optical axis: its image is turned the other way.
-RgbdFrame quarter_turned(const RgbdFrame& frame);
-
 }  // namespace foothold::benchmark

@@ -8,6 +8,7 @@
 #include "benchmark_frames.h"
 #include "device_rig.h"
 #include "foothold/base/trace.h"
+#include "foothold/synthetic/turned_frame.h"
 
 namespace foothold::benchmark {
 namespace {
@@ -43,8 +44,8 @@ std::vector<Views> kinds_of_views(const std::vector<RgbdFrame>& frames, const st
   constexpr std::size_t kStride = 4;
   for (std::size_t i = 0; i < frames.size(); i += kStride) {
     kinds[0].frames.push_back(frames[i]);
-    kinds[1].frames.push_back(quarter_turned(frames[i]));
-    kinds[2].frames.push_back(quarter_turned(kinds[1].frames.back()));
+    kinds[1].frames.push_back(turned_frame(frames[i], 1));
+    kinds[2].frames.push_back(turned_frame(frames[i], 2));
   }
   kinds.push_back({"another place", elsewhere});
   return kinds;

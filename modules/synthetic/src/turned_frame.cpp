@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-#include "turned_frame.h"
+#include "foothold/synthetic/turned_frame.h"
 
 #include <utility>
 
 #include "foothold/synthetic/room_changes.h"
 
-namespace foothold::benchmark {
+namespace foothold {
 namespace {
 
 /// Clockwise by a quarter.
@@ -69,4 +69,4 @@ RgbdFrame mirrored_frame(const RgbdFrame& frame) {
   return mirrored;
 }
 
-}  // namespace foothold::benchmark
+}  // namespace foothold
