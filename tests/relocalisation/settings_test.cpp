@@ -29,7 +29,7 @@ const Values kTuned = {
     {"features.downscale", "4"},
     {"reservoirs.capacity", "112"},
     {"reservoirs.grid_spacing_px", "8"},
-    {"reservoirs.examples_per_view", "32"},
+    {"reservoirs.examples_per_view", "255"},
     {"reservoirs.jitter", "true"},
     {"clustering.min_cluster_size", "8"},
     {"clustering.max_modes", "10"},

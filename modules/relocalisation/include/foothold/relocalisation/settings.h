@@ -25,10 +25,10 @@ struct FeatureSettings {
 
 /// What leaves remember. Reference: [Cavallari2017] Sec. 2.2.2, steps 1 and 2; [Vitter1985].
 struct ReservoirSettings {
-  int capacity = 112;          ///< (P) 1024, (T) 112
-  int grid_spacing_px = 8;     ///< (P) 4, (T) 8
-  bool jitter = true;          ///< (P) false, (T) true
-  int examples_per_view = 32;  ///< (P) 0, (T) 32, docs/experiments/places.md
+  int capacity = 112;           ///< (P) 1024, (T) 112
+  int grid_spacing_px = 8;      ///< (P) 4, (T) 8
+  bool jitter = true;           ///< (P) false, (T) true
+  int examples_per_view = 255;  ///< (P) 0, (T) 255, docs/experiments/places.md
 
   template <class Visitor>
   static void fields(Visitor& v) {
