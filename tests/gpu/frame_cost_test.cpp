@@ -32,6 +32,7 @@ ForestRelocaliserSettings few_leaves(int num_rolls) {
   settings.num_rolls = num_rolls;
   settings.sure_confidence = 1.0F;  // every roll is tried
   settings.clustering.leaves_per_frame = 40;
+  settings.reservoirs.examples_per_view = 32;  // memory has grown after a frame
   settings.pose.num_hypotheses = 32;
   settings.pose.pool_size = 600;
   return settings;

@@ -82,7 +82,9 @@ TEST_CASE("places: of two rooms that are alike none is believed, and both are pr
 }
 
 TEST_CASE("places: who stays learns nothing more and takes no more memory") {
-  ForestRelocaliser relocaliser = test::untrained();
+  ForestRelocaliserSettings settings = test::small_settings();
+  settings.reservoirs.examples_per_view = 32;  // reached within 300 frames
+  ForestRelocaliser relocaliser(test::context_of(1), test::small_forest(), settings);
   test::train_on(relocaliser, office().size());
   for (int i = 0; i < 300; ++i) relocaliser.train(office()[0].view(), *office()[0].world_from_camera);
   for (int i = 0; i < 50; ++i) relocaliser.update();
