@@ -77,6 +77,21 @@ void fail_every_allocation(const std::function<void()>& call, const std::functio
   CHECK(number > 1);
 }
 
+/// Loads bytes, every allocation failing in turn: what `state` tells stays as it was until loading succeeds.
+template <class Load, class State>
+void check_former_stays(const std::string& bytes, const Load& load, const State& state) {
+  const std::string former = state();
+  std::istringstream stream;
+  fail_every_allocation(
+      [&] {
+        stream.clear();
+        stream.str(bytes);
+        load(stream);
+      },
+      [&] { REQUIRE((state() == former)); });
+  CHECK((state() != former));
+}
+
 }  // namespace
 
 TEST_CASE("ForestRelocaliser::load: the former scene stays whichever allocation fails") {
@@ -85,15 +100,8 @@ TEST_CASE("ForestRelocaliser::load: the former scene stays whichever allocation 
   const std::string loaded = saved_bytes(other);
   ForestRelocaliser relocaliser = small_forest_relocaliser();
   teach(relocaliser, 1);
-  const std::string former = saved_bytes(relocaliser);
-  std::istringstream stream;
-  fail_every_allocation(
-      [&] {
-        stream.clear();
-        stream.str(loaded);
-        relocaliser.load(stream);
-      },
-      [&] { REQUIRE((saved_bytes(relocaliser) == former)); });
+  check_former_stays(
+      loaded, [&](std::istream& stream) { relocaliser.load(stream); }, [&] { return saved_bytes(relocaliser); });
   CHECK((saved_bytes(relocaliser) == loaded));
 }
 
@@ -128,55 +136,35 @@ TEST_CASE("KeyframeRelocaliser: load and train change nothing whichever allocati
   const std::string loaded = saved_bytes(other);
   KeyframeRelocaliser relocaliser(fuzz::one_thread(), settings);
   teach(relocaliser, 1);
+  KeyframeRelocaliser copy = relocaliser;
+  check_former_stays(
+      loaded, [&](std::istream& stream) { copy.load(stream); }, [&] { return saved_bytes(copy); });
+  CHECK((saved_bytes(copy) == loaded));
   const std::string former = saved_bytes(relocaliser);
-  const auto check = [&] { REQUIRE((saved_bytes(relocaliser) == former)); };
-  std::istringstream stream;
-  fail_every_allocation(
-      [&] {
-        stream.clear();
-        stream.str(loaded);
-        KeyframeRelocaliser copy = relocaliser;
-        copy.load(stream);
-      },
-      check);
   const RgbdFrame frame = fuzz::small_frame(9);
-  fail_every_allocation([&] { relocaliser.train(frame.view(), *frame.world_from_camera); }, check);
+  fail_every_allocation([&] { relocaliser.train(frame.view(), *frame.world_from_camera); },
+                        [&] { REQUIRE((saved_bytes(relocaliser) == former)); });
   CHECK(relocaliser.num_keyframes() == 2);
 }
 
 TEST_CASE("Reconstruction::load: the former scene stays whichever allocation fails") {
   const std::string loaded = saved_bytes(small_reconstruction(5));
   Reconstruction reconstruction = small_reconstruction(0);
-  const std::string former = parts_of(reconstruction);
-  std::istringstream stream;
-  fail_every_allocation(
-      [&] {
-        stream.clear();
-        stream.str(loaded);
-        reconstruction.load(stream, "a.scene");
-      },
-      [&] { REQUIRE((parts_of(reconstruction) == former)); });
-  CHECK((parts_of(reconstruction) != former));
+  check_former_stays(
+      loaded, [&](std::istream& stream) { reconstruction.load(stream, "a.scene"); }, [&] { return parts_of(reconstruction); });
 }
 
 TEST_CASE("FusionPipeline::load: the former map stays whichever allocation fails") {
-  const auto pipeline_after = [](int num_frames) {
+  const auto pipeline_from = [](int first) {
     FusionPipeline pipeline(fuzz::one_thread(), fuzz::small_fusion_settings(), nullptr);
-    pipeline.start_at(*fuzz::small_frame(0).world_from_camera);
-    for (int i = 0; i < num_frames; ++i) pipeline.process(fuzz::small_frame(i).view());
+    pipeline.start_at(*fuzz::small_frame(first).world_from_camera);
+    pipeline.process(fuzz::small_frame(first).view());
     return pipeline;
   };
-  const std::string loaded = saved_bytes(pipeline_after(2));
-  FusionPipeline pipeline = pipeline_after(1);
-  const std::string former = saved_bytes(pipeline);
-  std::istringstream stream;
-  fail_every_allocation(
-      [&] {
-        stream.clear();
-        stream.str(loaded);
-        pipeline.load(stream);
-      },
-      [&] { REQUIRE((saved_bytes(pipeline) == former)); });
+  const std::string loaded = saved_bytes(pipeline_from(2));
+  FusionPipeline pipeline = pipeline_from(0);
+  check_former_stays(
+      loaded, [&](std::istream& stream) { pipeline.load(stream); }, [&] { return saved_bytes(pipeline); });
   CHECK((saved_bytes(pipeline) == loaded));
 }
 

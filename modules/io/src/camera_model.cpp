@@ -146,11 +146,11 @@ ImageSize keyed_size(const Keys& all, CameraKind kind) {
   return sane ? ImageSize{static_cast<int>(size[0]), static_cast<int>(size[1])} : ImageSize{};
 }
 
-/// Units per metre, from a value that may be metres per unit. Numbers near 1 mean something else.
+/// Numbers near 1 mean something else.
 std::optional<double> keyed_depth_scale(const Keys& all) {
   constexpr double kLeast = 100.0;
   const double value = scalar(all, {"depthscale", "depthmapfactor", "pngdepthscale", "mdepthshift", "depthfactor", "scale"});
-  const double units_per_m = value > 0.0 && value < 1.0 ? 1.0 / value : value;
+  const double units_per_m = depth_units_per_m(value);
   if (!(units_per_m >= kLeast && units_per_m <= 1e6)) return std::nullopt;
   return units_per_m;
 }

@@ -41,6 +41,9 @@ struct CameraFile {
   bool has_both = false;                    ///< it tells of a depth and of a colour camera, by their names
 };
 
+/// Depth units per metre, of what may be metres per unit: no depth camera counts longer units than metres.
+inline double depth_units_per_m(double value) { return value > 0.0 && value < 1.0 ? 1.0 / value : value; }
+
 /// Parses intrinsics as people write them down: a 3x3, 3x4 or 4x4 matrix; fx fy cx cy, alone, with 4, 5 or 8 coefficients of distortion
 /// behind, or with width and height; or keys with numbers as in Open3D's and NICE-SLAM's JSON, OpenCV's and ROS's YAML, and BundleFusion's
 /// info.txt. @param kind  whose numbers to take, where the file has both cameras', under names with "depth" and "color" or "rgb".

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "camera_model.h"
 #include "foothold/base/contract.h"
 #include "foothold/frames/register_colour.h"
 #include "foothold/io/recording_check.h"
@@ -29,21 +30,18 @@ struct Sourced {
   std::string source;
 };
 
-/// Units per metre, of what may be metres per unit: no depth camera counts longer units than metres.
-double units_per_m(double value) { return value > 0.0 && value < 1.0 ? 1.0 / value : value; }
-
 Sourced<double> depth_unit(const FoundRecording& found, const RecordingCalibration& calibration, const SequenceOptions& options) {
   if (options.depth_units_per_m != 0.0) {
     if (!(options.depth_units_per_m > 0.0 && options.depth_units_per_m <= 1e6)) {
       throw InvalidSettings("depth scale: got " + numbers_text(&options.depth_units_per_m, 1) + ", expected depth units per metre, to 1e6");
     }
-    return {units_per_m(options.depth_units_per_m), "as given"};
+    return {depth_units_per_m(options.depth_units_per_m), "as given"};
   }
   const fs::path file = found.folder / "depth-scale.txt";
   if (fs::exists(file)) {
     const double value = parse_numbers(read_text(file, kMaxNumbersFileBytes), 1, file, "number of depth units per metre").front();
     if (!(value > 0.0 && value <= 1e6)) throw_file_error(file, numbers_text(&value, 1), "depth units per metre, to 1e6");
-    return {units_per_m(value), file.filename().string()};
+    return {depth_units_per_m(value), file.filename().string()};
   }
   if (calibration.depth_units_per_m.has_value()) return {*calibration.depth_units_per_m, "beside the intrinsics"};
   return {found.depth_units_per_m, found.depth_unit_source.empty() ? "as in all of this layout" : found.depth_unit_source};

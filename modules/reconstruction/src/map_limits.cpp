@@ -8,11 +8,6 @@
 #include "foothold/base/settings.h"
 
 namespace foothold {
-namespace {
-
-std::string text_of(float value) { return detail::to_text(value); }
-
-}  // namespace
 
 void MapLimits::watch(const Frame& frame, const TsdfSettings& volume, const Context& context, FusionFrameResult& result) {
   const bool is_readable = frame.depth.memory == MemoryKind::kHost && !frame.depth.empty();
@@ -46,8 +41,8 @@ void MapLimits::watch_range(const Frame& frame, const TsdfSettings& volume, cons
   told_range_ = true;
   context.log(LogLevel::kWarning, std::to_string(std::lround(100.0 * fraction)) + " % of the depth until frame " +
                                       std::to_string(frame.index) +
-                                      " lies outside of fusion.volume.min_depth_m = " + text_of(volume.min_depth_m) +
-                                      " to fusion.volume.max_depth_m = " + text_of(volume.max_depth_m) + ", and is not used");
+                                      " lies outside of fusion.volume.min_depth_m = " + detail::to_text(volume.min_depth_m) +
+                                      " to fusion.volume.max_depth_m = " + detail::to_text(volume.max_depth_m) + ", and is not used");
 }
 
 }  // namespace foothold

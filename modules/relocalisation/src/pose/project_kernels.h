@@ -33,13 +33,14 @@ struct AlignByProjection {
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
     for (int step = 0; step < num_steps; ++step) {
-      take_step(team, distance_m * (2 * step < num_steps ? 2.0F : 1.0F));
+      if (!take_step(team, distance_m * (2 * step < num_steps ? 2.0F : 1.0F))) return;
       team.sync();
     }
   }
 
  private:
-  FOOTHOLD_HD void take_step(const typename Executor::Team& team, float reach_m) const {
+  /// @return False, for every lane, if too few points are supported: the pose stays, and no later step reaches further.
+  FOOTHOLD_HD bool take_step(const typename Executor::Team& team, float reach_m) const {
     const SE3 pose = state->scene_from_camera;
     float sums[kNumSums] = {};
     const auto num_points = static_cast<std::uint32_t>(points.size());
@@ -50,11 +51,10 @@ struct AlignByProjection {
       add_point(pose, point_scene, reach_m, sums);
     }
     team.sum_all(sums);
-    if (team.lane() != 0) return;
+    if (sums[kNumSupported] < points.min_supported(sums[kNumValid])) return false;
     float twist[6];
-    if (sums[kNumSupported] >= points.min_supported(sums[kNumValid]) && solve_for_twist(sums, kDamping, twist)) {
-      state->scene_from_camera = perturbed(pose, twist);
-    }
+    if (team.lane() == 0 && solve_for_twist(sums, kDamping, twist)) state->scene_from_camera = perturbed(pose, twist);
+    return true;
   }
 
   static constexpr int kNumSupported = kNumHessian + 6;  ///< points on a surface of the frame

@@ -70,7 +70,7 @@ struct Ranking {
   }
 
   Array<RememberedPoint> points;
-  Array<SceneEvidence> evidence;  ///< per hypothesis; zero for those that were not judged
+  Array<SceneEvidence> evidence;  ///< per hypothesis; of no meaning for those that have failed
   Array<TileCounts> tiles;
   Array<SceneAgreement> agreement;  ///< of the best pose
 };

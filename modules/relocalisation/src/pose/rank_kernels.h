@@ -131,8 +131,8 @@ struct MakeEvidenceKey {
   FOOTHOLD_HD void operator()(std::size_t slot) const {
     const std::uint32_t hypothesis = hypotheses.at(slot);
     const SceneEvidence& found = evidence[hypothesis];
-    const bool failed = hypotheses.energies[hypothesis] >= kFailedEnergy;
-    const float disbelief = failed ? kFailedEnergy : 1.0F + found.contradicted_fraction() - found.alike_fraction();  // positive
+    const float disbelief =
+        hypotheses.has_failed(slot) ? kFailedEnergy : 1.0F + found.contradicted_fraction() - found.alike_fraction();  // positive
     std::uint32_t bits = 0;
     memcpy(&bits, &disbelief, sizeof(bits));
     hypotheses.order[slot] = (static_cast<std::uint64_t>(bits) << 32U) | hypothesis;

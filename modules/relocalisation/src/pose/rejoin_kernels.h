@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
 /// Drawing the best pose to what the camera that was learnt last saw, as far as both see the same: whoever was lost a moment ago goes on
-/// where tracking ended, to a few millimetres. Not in the paper. What the pose is believed for was measured before: this moves it by less
-/// than a belief heeds.
+/// where tracking ended, to a few millimetres. Not in the paper. The evidence for the pose was measured before, where it was aligned.
 #pragma once
 
 #include "pose/candidates.h"

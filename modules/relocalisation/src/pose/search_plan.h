@@ -14,7 +14,8 @@ inline constexpr int kCullSamples = 500;
 /// Hypotheses that survive a first, coarse cull (T).
 inline constexpr int kFirstCullSurvivors = 256;
 
-/// Hypotheses nearer to one another than this are one, of which the best is kept: before they are refined, and after (T).
+/// Hypotheses nearer to one another than this are one, of which the one that scored best so far is kept: before they are refined, and after
+/// (T).
 inline constexpr float kSameHypothesisM = 0.10F;
 inline constexpr float kSameHypothesisRad = 0.10F;
 inline constexpr float kSameRefinedM = 0.03F;
