@@ -38,6 +38,23 @@ class DefectsTest(app_support.AppTest):
         self.assertEqual(results["methods"]["ferns"]["num_trained"], 9)
         self.assertIn("1 frame without depth", result.stdout)
 
+    def test_images_that_cannot_be_read_count_as_frames_without_depth(self):
+        (self.folder / "take" / "frame-000003.color.png").unlink()
+        damaged = self.folder / "take" / "frame-000006.depth.png"
+        damaged.write_bytes(damaged.read_bytes()[:-20])
+        result, results = self.run_loss()
+        self.assertEqual(results["methods"]["ferns"]["num_without_depth"], 2)
+        self.assertEqual(results["methods"]["ferns"]["num_tested"], 9)
+        self.assertEqual(len(results["warnings"]), 1)
+        self.assertIn("2 of its 10 frames cannot be read", results["warnings"][0])
+        self.assertIn("frame-000003.color.png", results["warnings"][0])
+        self.assertEqual(result.stderr.count("cannot be read"), 1)
+
+    def test_a_recording_of_which_half_cannot_be_read_is_refused(self):
+        for index in range(4, 9):
+            (self.folder / "take" / f"frame-{index:06d}.color.png").unlink()
+        self.check_refused("loss", "--sequence", "take", "--method", "ferns", says=["frame-000004.color.png", "5 of its 10 frames"])
+
     def test_says_which_intrinsics_are_used(self):
         result, results = self.run_loss("--intrinsics", "70,70,39.5,29.5")
         self.assertIn("intrinsics 70 70 39.5 29.5 (as given)", result.stderr)

@@ -251,14 +251,15 @@ class WrongSceneTest(SceneTest):
         self.check_scene(KITCHEN, "desk", says=["seq-02", "no such folder"])
 
     def test_missing_frames(self):
-        for kind, number in [("depth.png", 2), ("color.png", 2)]:
+        for kind, number in [("depth.png", 0), ("color.png", 0)]:
             scene = self.make_scene("scene" + kind[:2])
             (scene / "seq-02" / f"frame-{number:06d}.{kind}").unlink()
             self.check_scene(KITCHEN, scene.name, says=[f"frame-{number:06d}.{kind}", "no such file"])
         scene = self.make_scene("gap")
-        for file in (scene / "seq-02").glob("frame-000001.*"):
-            file.unlink()
-        self.check_scene(KITCHEN, "gap", says=["frame-000001", "without gaps"])
+        for number in (1, 2):
+            for file in (scene / "seq-02").glob(f"frame-{number:06d}.*"):
+                file.unlink()
+        self.check_scene(KITCHEN, "gap", says=["frame-000001", "numbered from 0"])
 
     def test_frames_numbered_from_one(self):
         scene = self.make_scene()

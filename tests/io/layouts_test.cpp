@@ -68,6 +68,8 @@ void check_room(const std::string& name, const std::string& layout) {
   }
 }
 
+bool has_depth(const RgbdFrame& frame) { return std::any_of(frame.depth.data(), frame.depth.data() + frame.depth.size(), is_valid_depth); }
+
 template <class T>
 void put(std::string& bytes, const T& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
@@ -186,7 +188,7 @@ TEST_CASE("open_sequence: a damaged .sens file is named, with what is missing") 
   };
   CHECK_THAT(error(whole.substr(0, 3)), Contains("scene.sens") && Contains("cut short"));
   CHECK_THAT(error(whole.substr(0, 100)), Contains("cut short before the colour camera"));
-  CHECK_THAT(error(whole.substr(0, whole.size() - 1)), Contains("cut short in an image"));
+  CHECK_THAT(error(whole.substr(0, whole.size() / 3)), Contains("cut short"));
   CHECK_THAT(error("\x05" + whole.substr(1)), Contains("version 5"));
   std::string coded = whole;
   coded[4 + 8 + 4 + 256 + 4] = 2;  // the coding of depth
@@ -194,8 +196,18 @@ TEST_CASE("open_sequence: a damaged .sens file is named, with what is missing") 
   std::string damaged = whole;
   damaged[damaged.size() - 100] ^= 0x55;
   write_text(temp / "scene.sens", damaged);
-  CHECK_THAT(error_of([&] { open_sequence(temp / "scene.sens", Context())->load(13); }),
-             Contains("scene.sens") && Contains("damaged image"));
+  LoggingContext log;
+  CHECK_FALSE(has_depth(open_sequence(temp / "scene.sens", log.context)->load(13)));
+  CHECK_THAT(log.warnings, Contains("scene.sens") && Contains("damaged image") && Contains("without depth"));
+}
+
+TEST_CASE("open_sequence: of a .sens file that is cut short, the frames before are read") {
+  const TempFolder temp;
+  const std::string whole = sens_bytes(temp / "scratch.png");
+  write_text(temp / "scene.sens", whole.substr(0, whole.size() - 1));
+  LoggingContext log;
+  CHECK(open_sequence(temp / "scene.sens", log.context)->num_frames() == 13);
+  CHECK_THAT(log.warnings, Contains("cut short in an image") && Contains("first 13 of its 14 frames"));
 }
 
 TEST_CASE("open_sequence: reads Redwood's and Open3D's folders, their poses as a log") {
@@ -240,6 +252,18 @@ TEST_CASE("open_sequence: reads Replica as NICE-SLAM renders it, its camera one 
        << ", \"scale\": 6553.5}}";
   write_text(temp / "cam_params.json", json.str());
   check_room(folder, "Replica");
+
+  truncate_file(folder + "/results/frame000004.png", 0.5);
+  fs::remove(folder + "/results/depth000000.png");
+  fs::remove(folder + "/results/depth000006.png");
+  LoggingContext log;
+  const auto sequence = open_sequence(folder, log.context);
+  REQUIRE(sequence->num_frames() == 12);
+  CHECK_FALSE(has_depth(sequence->load(3)));
+  CHECK_THAT(log.warnings, Contains("2 images left out") && Contains("1 of its 12 frames cannot be read") && Contains("frame000004.png"));
+  for (const auto& [place, number] : {std::pair<int, std::size_t>{0, 1}, {4, 5}, {5, 7}, {11, 13}}) {  // poses stay with their images
+    CHECK(is_near(*sequence->load(place).world_from_camera, *room_frames()[number].world_from_camera, 1e-3F, 0.05F));
+  }
 }
 
 TEST_CASE("open_sequence: reads Stray Scanner's export, whose camera is that of its larger colour images") {

@@ -4,9 +4,11 @@
 
 #include "foothold/frames/register_colour.h"
 #include "foothold/io/image_file.h"
+#include "foothold/io/recording.h"
 #include "foothold/io/sequence.h"
 #include "foothold/io/seven_scenes_writer.h"
 #include "io_fixtures.h"
+#include "lost_identities.h"
 #include "room_recording.h"
 #include "support/catch.h"
 
@@ -80,6 +82,24 @@ TEST_CASE("SevenScenesWriter: an unregistered calibration survives, and is playe
   CHECK(registered.calibration.colour.fx == frame.calibration.depth.fx);
   register_colour(frame);  // a recording is as good as the camera
   CHECK(same_colour(registered.colour, frame.colour));
+}
+
+TEST_CASE("SevenScenesWriter: colour may have another size than depth, and is played registered") {
+  const TempFolder temp;
+  RgbdFrame frame = small_frame(0);
+  frame.colour = Image<Rgb8>(2 * kTestWidth, 2 * kTestHeight, {90, 80, 70});
+  frame.calibration.colour = frame.calibration.depth.scaled(2.0F);
+  {
+    SevenScenesWriter writer(temp.path());
+    writer.write(frame);
+    writer.finish();
+  }
+  const auto recording = open_recording(temp.path(), Context());
+  CHECK(recording->facts().colour_width == 2 * kTestWidth);
+  CHECK(recording->facts().calibration.colour.fx == frame.calibration.colour.fx);
+  const RgbdFrame read = recording->load(0);
+  CHECK(describe_frame_error(read.view()).empty());
+  CHECK(read.colour(3, 3).g == 80);
 }
 
 TEST_CASE("SevenScenesWriter: depth that millimetres cannot hold becomes no measurement") {
@@ -210,12 +230,58 @@ TEST_CASE("open_sequence: a pose that was written column by column is read so") 
   CHECK(pose.rotation(1, 0) == 1.0F);
 }
 
-TEST_CASE("open_sequence: each thing missing from a 7-Scenes folder is named") {
+TEST_CASE("open_sequence: an image that is missing or cut short makes a frame without depth, and one warning counts them") {
   const TempFolder temp;
-  write_small_recording(temp.path(), 3);
-  const std::string name = GENERATE(as<std::string>{}, "frame-000001.color.png", "frame-000001.depth.png", "frame-000002.depth.png");
-  fs::remove(temp / name);
-  CHECK_THAT(reading_error(temp.path()), Contains(temp / name) && Contains("no such file"));
+  write_small_recording(temp.path(), 9);
+  const std::string name = GENERATE(as<std::string>{}, "frame-000003.color.png", "frame-000003.depth.png", "frame-000008.depth.png");
+  const bool is_missing = GENERATE(true, false);
+  is_missing ? static_cast<void>(fs::remove(temp / name)) : truncate_file(temp / name, GENERATE(0.0, 0.5, 0.99));
+  fs::remove(temp / "frame-000005.color.png");
+  LoggingContext log;
+  const auto sequence = open_sequence(temp.path(), log.context);
+  REQUIRE(sequence->num_frames() == 9);
+  for (int i = 0; i < 9; ++i) {
+    const RgbdFrame frame = sequence->load(i);
+    CHECK(describe_frame_error(frame.view()).empty());
+    CHECK(frame.world_from_camera.has_value());
+    const bool is_lost = i == 5 || temp / name == temp / ("frame-00000" + std::to_string(i) + name.substr(12));
+    CHECK(std::any_of(frame.depth.data(), frame.depth.data() + frame.depth.size(), is_valid_depth) != is_lost);
+  }
+  const std::string first = name == "frame-000008.depth.png" ? "frame-000005.color.png" : name;
+  CHECK_THAT(log.warnings, Contains("2 of its 9 frames cannot be read, and count as frames without depth") && Contains(temp / first));
+}
+
+TEST_CASE("open_sequence: an image whose damage shows only in its pixels makes a frame without depth, and is warned of once") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 6);
+  for (const std::string name : {"frame-000002.depth.png", "frame-000004.color.png"}) {
+    std::string bytes = read_text(temp / name);
+    bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 0x55);
+    write_text(temp / name, bytes);
+  }
+  LoggingContext log;
+  const auto sequence = open_sequence(temp.path(), log.context);
+  for (int i = 0; i < 6; ++i) {
+    const RgbdFrame frame = sequence->load(i);
+    CHECK(std::any_of(frame.depth.data(), frame.depth.data() + frame.depth.size(), is_valid_depth) == (i != 2 && i != 4));
+  }
+  CHECK_THAT(log.warnings, Contains("frame-000002.depth.png") && !Contains("frame-000004.color.png"));
+}
+
+TEST_CASE("open_sequence: a recording whose first frame, or half of its frames, cannot be read is refused") {
+  const TempFolder temp;
+  write_small_recording(temp.path(), 4);
+  SECTION("the first") {
+    const std::string name = GENERATE(as<std::string>{}, "frame-000000.color.png", "frame-000000.depth.png");
+    GENERATE(true, false) ? static_cast<void>(fs::remove(temp / name)) : truncate_file(temp / name, 0.9);
+    CHECK_THAT(reading_error(temp.path()), Contains(temp / name));
+  }
+  SECTION("half") {
+    fs::remove(temp / "frame-000001.color.png");
+    CHECK_NOTHROW(open_sequence(temp.path(), Context())->load(1));
+    truncate_file(temp / "frame-000002.depth.png", 0.9);
+    CHECK_THAT(reading_error(temp.path()), Contains(temp / "frame-000001.color.png") && Contains("2 of its 4 frames cannot be read"));
+  }
 }
 
 TEST_CASE("open_sequence: the last frame of a recording that was killed may lack an image, and is left out with a warning") {
@@ -229,14 +295,19 @@ TEST_CASE("open_sequence: the last frame of a recording that was killed may lack
   CHECK(open_sequence(temp.path(), Context(options))->num_frames() == 2);
   CHECK_THAT(warnings, Contains("frame 2, the last, lacks an image and is left out"));
   fs::remove(temp / "frame-000001.depth.png");
-  CHECK_THAT(open_error(temp.path()), Contains("frame-000001.depth.png") && Contains("no such file"));
+  CHECK_THAT(reading_error(temp.path()), Contains("frame-000001.depth.png") && Contains("no such file"));
 }
 
-TEST_CASE("open_sequence: a gap in the numbering is explained") {
+TEST_CASE("open_sequence: a gap in the numbering is frames without depth, a wide one is explained") {
   const TempFolder temp;
   write_small_recording(temp.path(), 4);
   for (const std::string suffix : {".color.png", ".depth.png", ".pose.txt"}) fs::remove(temp / ("frame-000002" + suffix));
-  CHECK_THAT(reading_error(temp.path()), Contains("frame-000002.depth.png") && Contains("without gaps") && Contains("frame 3"));
+  LoggingContext log;
+  CHECK(open_sequence(temp.path(), log.context)->num_frames() == 4);
+  CHECK_THAT(log.warnings, Contains("1 of its 4 frames cannot be read") && Contains("frame-000002.depth.png"));
+  for (const std::string suffix : {".color.png", ".depth.png", ".pose.txt"})
+    fs::rename(temp / ("frame-000003" + suffix), temp / ("frame-000030" + suffix));
+  CHECK_THAT(reading_error(temp.path()), Contains("frame-000002.depth.png") && Contains("numbered from 0") && Contains("frame 30"));
   for (const std::string suffix : {".color.png", ".depth.png", ".pose.txt"}) fs::remove(temp / ("frame-000000" + suffix));
   CHECK_THAT(reading_error(temp.path()), Contains("frame-000000.depth.png") && Contains("from 0"));
 }
@@ -312,6 +383,41 @@ TEST_CASE("open_sequence: a frame whose pose is lost or missing comes without on
   REQUIRE(sequence->num_frames() == 4);
   for (int i = 0; i < 4; ++i) CHECK(sequence->load(i).world_from_camera.has_value() == (i != 1));
   CHECK_THAT(log.warnings, Contains("1 of its 4 frames have no pose") && Contains("frame 1"));
+}
+
+TEST_CASE("open_sequence: poses that a logger wrote as the identity where tracking was lost come without one, and a warning counts them") {
+  const TempFolder temp;
+  constexpr int kNumFrames = 20;
+  write_small_recording(temp.path(), kNumFrames);
+  const std::string identity = "1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n";
+  for (const char* name : {"frame-000007.pose.txt", "frame-000008.pose.txt", "frame-000019.pose.txt"}) write_text(temp / name, identity);
+  LoggingContext log;
+  const auto sequence = open_sequence(temp.path(), log.context);
+  for (int i = 0; i < kNumFrames; ++i) {
+    CHECK(sequence->load(i).world_from_camera.has_value() == (i != 7 && i != 8 && i != kNumFrames - 1));
+  }
+  CHECK_THAT(log.warnings, Contains("3 of its 20 poses are the identity") && Contains("3 of its 20 frames have no pose"));
+}
+
+TEST_CASE("find_lost_identities: leaves a camera alone that begins at the identity, comes back to it, or leaps anyway") {
+  const auto path = [](double step_m, int num_poses) {
+    std::vector<std::optional<io::RecordedPose>> poses(static_cast<std::size_t>(num_poses), io::RecordedPose{});
+    for (int i = 0; i < num_poses; ++i) poses[static_cast<std::size_t>(i)]->translation_m.x() = step_m * (i - num_poses / 2);
+    return poses;
+  };
+  constexpr int kNumPoses = 40;
+  CHECK(io::find_lost_identities(path(0.05, kNumPoses)).empty());  // passes through it
+  CHECK(io::find_lost_identities(path(0.6, kNumPoses)).empty());   // in long steps
+  auto poses = path(0.05, kNumPoses);
+  for (std::size_t i = 0; i < 3; ++i) poses[i] = io::RecordedPose{};
+  CHECK(io::find_lost_identities(poses).empty());  // begins there
+  poses[30] = io::RecordedPose{};                  // half a metre away, but no further
+  CHECK(io::find_lost_identities(poses).empty());
+  poses[35] = io::RecordedPose{};
+  CHECK(io::find_lost_identities(poses) == std::vector<std::size_t>{35});
+  poses[34].reset();  // who knows where the camera was
+  CHECK(io::find_lost_identities(poses).empty());
+  CHECK(io::find_lost_identities(std::vector<std::optional<io::RecordedPose>>(kNumPoses, io::RecordedPose{})).empty());
 }
 
 TEST_CASE("open_sequence: bad intrinsics are named, with the value") {

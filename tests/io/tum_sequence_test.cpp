@@ -131,12 +131,12 @@ TEST_CASE("open_sequence: each thing wrong with a TUM folder is named") {
     CHECK_THAT(reading_error(temp.path()), Contains(temp / "rgb.txt") && Contains("no such file"));
   }
   SECTION("missing image") {
-    fs::remove(temp / "rgb/1.png");
-    CHECK_THAT(reading_error(temp.path()), Contains(temp / "rgb/1.png") && Contains("no such file"));
+    fs::remove(temp / "rgb/0.png");
+    CHECK_THAT(reading_error(temp.path()), Contains(temp / "rgb/0.png") && Contains("no such file"));
   }
   SECTION("damaged image") {
-    truncate_file(temp / "depth/2.png", 0.7);
-    CHECK_THAT(reading_error(temp.path()), Contains(temp / "depth/2.png"));
+    truncate_file(temp / "depth/0.png", 0.7);
+    CHECK_THAT(reading_error(temp.path()), Contains(temp / "depth/0.png"));
   }
   SECTION("empty list") { CHECK_THAT(breaks("depth.txt", "# nothing\n"), Contains("no image")); }
   SECTION("bad line") { CHECK_THAT(breaks("rgb.txt", "1.0 rgb/0.png\n1.1\n"), Contains("line 2") && Contains("1 words")); }
@@ -158,6 +158,35 @@ TEST_CASE("open_sequence: each thing wrong with a TUM folder is named") {
                Contains("no pose at the time") && Contains("9.000000") && Contains("seconds"));
   }
   SECTION("negative intrinsics") { CHECK_THAT(breaks("camera-intrinsics.txt", "525 0 320 0 -525 240 0 0 1"), Contains("-525")); }
+}
+
+TEST_CASE("open_sequence: frames beside a sample of the ground truth that is the identity, where tracking was lost, come without a pose") {
+  const TempFolder temp;
+  write_tum_recording(temp.path());
+  std::string truth;
+  for (int i = 0; i <= 30; ++i) {
+    const std::string time = std::to_string(0.95 + 0.01 * i);
+    truth += time + (i == 15 ? " 0 0 0 0 0 0 1\n" : " " + time + " 0 0 0 0 0 1\n");  // at 1.1 s, a frame's time
+  }
+  write_text(temp / "groundtruth.txt", truth);
+  LoggingContext log;
+  const auto sequence = open_sequence(temp.path(), log.context);
+  for (int i = 0; i < 3; ++i) CHECK(sequence->load(i).world_from_camera.has_value() == (i != 1));
+  CHECK_THAT(log.warnings, Contains("groundtruth.txt: 1 of its 31 poses are the identity"));
+}
+
+TEST_CASE("open_sequence: an image of a TUM folder that is missing or cut short makes a frame without depth") {
+  const TempFolder temp;
+  write_tum_recording(temp.path());
+  const std::string file = temp / GENERATE(as<std::string>{}, "rgb/1.png", "depth/1.png");
+  GENERATE(true, false) ? static_cast<void>(fs::remove(file)) : truncate_file(file, 0.7);
+  LoggingContext log;
+  const auto sequence = open_sequence(temp.path(), log.context);
+  REQUIRE(sequence->num_frames() == 3);
+  CHECK(sequence->load(1).depth(300, 300) == 0.0F);
+  CHECK(sequence->load(1).world_from_camera.has_value());
+  CHECK(sequence->load(2).depth(300, 300) > 0.0F);
+  CHECK_THAT(log.warnings, Contains("1 of its 3 frames cannot be read") && Contains(file));
 }
 
 TEST_CASE("open_sequence: a TUM list by Windows, a spreadsheet or a logger reads like any other") {

@@ -10,9 +10,11 @@
 #include "foothold/frames/register_colour.h"
 #include "foothold/io/recording_check.h"
 #include "image_decoding.h"
+#include "lost_identities.h"
 #include "raw_image.h"
 #include "text_file.h"
 #include "undistortion.h"
+#include "unreadable_frames.h"
 
 namespace foothold::io {
 namespace {
@@ -79,13 +81,14 @@ Image<float> in_metres(const Image<std::uint16_t>& raw, float units_per_m) {
 template <class T>
 void check_size(const Image<T>& image, const ImageSize& expected, const fs::path& file) {
   const ImageSize size{image.width(), image.height()};
-  if (size != expected) throw_file_error(file, to_string(size) + " pixels", to_string(expected) + " as in the first frame");
+  if (size != expected) throw OtherImage(file, to_string(size) + " pixels", to_string(expected) + " as in the first frame");
 }
 
 class FolderRecording : public Recording {
  public:
-  FolderRecording(FoundRecording found, const SequenceOptions& options, const RecordingCalibration& calibration)
-      : found_(std::move(found)),
+  FolderRecording(FoundRecording found, const Context& context, const SequenceOptions& options, const RecordingCalibration& calibration)
+      : unreadable_(found, context),
+        found_(std::move(found)),
         depth_size_(calibration.depth.size),
         colour_size_(calibration.colour.size),
         depth_lens_(calibration.depth),
@@ -126,22 +129,44 @@ class FolderRecording : public Recording {
   }
 
   RgbdFrame load(int index) const override {
-    const StoredImage& stored = frame_at(index).colour;
     RgbdFrame frame;
     frame.calibration = facts_.calibration;
     frame.index = index;
     frame.timestamp_s = frame_at(index).timestamp_s;
     frame.world_from_camera = facts_.world_from_camera[static_cast<std::size_t>(index)];
-    frame.depth = load_depth(index);
-    frame.colour = stored.coding == ImageCoding::kFile ? decode_rgb(read_stored_image(stored), stored.file)
-                                                       : decode_raw_colour(read_stored_image(stored), stored, found_.raw_colour_size);
-    check_size(frame.colour, colour_size_, stored.file);
-    colour_lens_.apply(frame.colour);
+    if (unreadable_.contains(index)) {
+      clear_images(frame);
+    } else {
+      try {
+        frame.depth = load_depth(index);
+        frame.colour = load_colour(index);
+      } catch (const OtherImage&) {
+        throw;
+      } catch (const FileError& error) {
+        if (!unreadable_.add(index, error)) throw;
+        clear_images(frame);
+      }
+    }
     if (registers_) register_colour(frame);
     return frame;
   }
 
  private:
+  Image<Rgb8> load_colour(int index) const {
+    const StoredImage& stored = frame_at(index).colour;
+    Image<Rgb8> colour = stored.coding == ImageCoding::kFile ? decode_rgb(read_stored_image(stored), stored.file)
+                                                             : decode_raw_colour(read_stored_image(stored), stored, found_.raw_colour_size);
+    check_size(colour, colour_size_, stored.file);
+    colour_lens_.apply(colour);
+    return colour;
+  }
+
+  /// Makes a frame without depth.
+  void clear_images(RgbdFrame& frame) const {
+    frame.depth = Image<float>(depth_size_.width, depth_size_.height);
+    frame.colour = Image<Rgb8>(colour_size_.width, colour_size_.height);
+  }
+
   const RecordedFrame& frame_at(int index) const {
     FOOTHOLD_EXPECTS(index >= 0 && index < num_frames());
     return found_.frames[static_cast<std::size_t>(index)];
@@ -164,6 +189,7 @@ class FolderRecording : public Recording {
     }
   }
 
+  mutable UnreadableFrames unreadable_;
   FoundRecording found_;
   ImageSize depth_size_;
   ImageSize colour_size_;
@@ -205,7 +231,8 @@ std::shared_ptr<Recording> make_recording(FoundRecording found, const Context& c
   const ImageSize colour_size = size_of(found.frames.front().colour, found.raw_colour_size);
   const RecordingCalibration calibration = find_calibration(found.folder, found.calibration, depth_size, colour_size, options);
   const bool tells_poses = found.tells_poses;
-  auto recording = std::make_shared<FolderRecording>(std::move(found), options, calibration);
+  drop_lost_identities(found.frames, found.folder.string(), context);
+  auto recording = std::make_shared<FolderRecording>(std::move(found), context, options, calibration);
   context.log(LogLevel::kInfo, describe(recording->facts(), depth_size));
   if (!calibration.warning.empty()) context.log(LogLevel::kWarning, calibration.warning);
   warn_of_missing_poses(recording->facts(), tells_poses, context);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <fstream>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <string_view>
@@ -102,9 +103,23 @@ Rgb8 depth_colour(float x) {
 
 namespace io {
 
+void check_image_file(const std::filesystem::path& file) {
+  constexpr std::streamoff kHead = 8;
+  constexpr std::streamoff kTail = 4096;
+  std::ifstream stream(file, std::ios::binary | std::ios::ate);
+  const std::streamoff size = stream.tellg();
+  if (size >= kHead + kTail) {
+    std::string ends(kHead + kTail, '\0');
+    stream.seekg(0).read(ends.data(), kHead);
+    stream.seekg(size - kTail).read(&ends[kHead], kTail);
+    if (stream && describe_image_error(ends).empty()) return;
+  }
+  check_image(read_file(file, kMaxImageBytes), file);
+}
+
 Image<Rgb8> decode_rgb(std::string bytes, const std::filesystem::path& name) {
   const ImageHeader header = check_image(bytes, name);
-  if (header.bits_per_channel > 8) throw_file_error(name, pixel_text(header), "colour of 8 bits a channel");
+  if (header.bits_per_channel > 8) throw OtherImage(name, pixel_text(header), "colour of 8 bits a channel");
   const cv::Mat bgr = decode(std::move(bytes), name, header, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
   Image<Rgb8> image(bgr.cols, bgr.rows);
   for (int v = 0; v < bgr.rows; ++v) {
@@ -117,7 +132,7 @@ Image<Rgb8> decode_rgb(std::string bytes, const std::filesystem::path& name) {
 
 Image<std::uint16_t> decode_u16(std::string bytes, const std::filesystem::path& name) {
   const ImageHeader header = check_image(bytes, name);
-  if (header.num_channels != 1 || header.bits_per_channel != 16) throw_file_error(name, pixel_text(header), "one channel of 16 bits");
+  if (header.num_channels != 1 || header.bits_per_channel != 16) throw OtherImage(name, pixel_text(header), "one channel of 16 bits");
   const cv::Mat mat = decode(std::move(bytes), name, header, cv::IMREAD_UNCHANGED);
   if (mat.type() != CV_16UC1) throw_file_error(name, "a damaged image", kExpected);
   Image<std::uint16_t> image(mat.cols, mat.rows);

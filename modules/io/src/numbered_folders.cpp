@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The Foothold authors
 #include "numbered_folders.h"
 
+#include <algorithm>
 #include <charconv>
+#include <limits>
 #include <map>
 
 #include "numbered_files.h"
@@ -43,12 +45,19 @@ fs::path find_pose_list(const fs::path& folder) {
   return logs.size() == 1 ? logs.front() : fs::path();
 }
 
+/// The least step between numbers that rise; 1 for a single one.
+long step_between(const std::vector<long>& numbers) {
+  long step = std::numeric_limits<long>::max();
+  for (std::size_t i = 1; i < numbers.size(); ++i) step = std::min(step, numbers[i] - numbers[i - 1]);
+  return numbers.size() < 2 ? 1 : step;
+}
+
 /// Reads pose/N.txt of each frame that has one.
-void add_pose_files(const fs::path& folder, const std::vector<long>& numbers, std::vector<RecordedFrame>& frames) {
+void add_pose_files(const fs::path& folder, NumberedFrames& numbered) {
   const std::map<long, fs::path> files = numbered_files(folder, "", {".txt"});
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const auto file = files.find(numbers[i]);
-    if (file != files.end()) frames[i].pose = parse_pose(read_text(file->second, kMaxNumbersFileBytes), file->second);
+  for (std::size_t i = 0; i < numbered.frames.size(); ++i) {
+    const auto file = files.find(numbered.numbers[i]);
+    if (file != files.end()) numbered.frames[i].pose = parse_pose(read_text(file->second, kMaxNumbersFileBytes), file->second);
   }
 }
 
@@ -63,19 +72,21 @@ std::optional<SE3> depth_from_colour(const fs::path& folder) {
 
 }  // namespace
 
-std::vector<RecordedFrame> pair_by_number(const std::map<long, fs::path>& depth, const std::map<long, fs::path>& colour,
-                                          const fs::path& folder, const Context& context, std::vector<long>& numbers) {
+NumberedFrames pair_by_number(const std::map<long, fs::path>& depth, const std::map<long, fs::path>& colour, const fs::path& folder,
+                              const Context& context) {
   for (const auto& [images, kind] : {std::pair{&depth, "depth image, a PNG or PGM of 16 bits"}, {&colour, "colour image, a PNG or JPEG"}}) {
     if (images->empty())
       throw FileError(folder.string() + ": got no images of a kind that is read, expected at least one numbered " + kind);
   }
-  std::vector<RecordedFrame> frames;
+  NumberedFrames numbered;
+  numbered.first_number = std::min(depth.begin()->first, colour.begin()->first);
+  std::vector<RecordedFrame>& frames = numbered.frames;
   for (const auto& [number, depth_file] : depth) {
     const auto colour_file = colour.find(number);
     if (colour_file == colour.end()) continue;
     const double by_rate_s = static_cast<double>(number) / kDefaultFrameRate_hz;
     frames.push_back({{depth_file}, {colour_file->second}, time_in_name(depth_file).value_or(by_rate_s), std::nullopt});
-    numbers.push_back(number);
+    numbered.numbers.push_back(number);
   }
   if (frames.empty()) {
     throw FileError(folder.string() + ": got " + std::to_string(depth.size()) + " depth and " + std::to_string(colour.size()) +
@@ -87,12 +98,18 @@ std::vector<RecordedFrame> pair_by_number(const std::map<long, fs::path>& depth,
                                         " images left out, of which there is none of the "
                                         "same number in the other folder");
   }
-  return frames;
+  return numbered;
 }
 
-void add_pose_list(const fs::path& file, std::vector<RecordedFrame>& frames) {
-  for (const auto& [number, pose] : parse_pose_list(read_text(file, kMaxListFileBytes), file)) {
-    if (number < static_cast<long>(frames.size())) frames[static_cast<std::size_t>(number)].pose = pose;
+void add_pose_list(const fs::path& file, NumberedFrames& numbered) {
+  const std::map<long, std::optional<RecordedPose>> poses = parse_pose_list(read_text(file, kMaxListFileBytes), file);
+  const bool one_each = poses.size() == numbered.frames.size();
+  const bool one_a_number = static_cast<long>(poses.size()) > numbered.numbers.back() - numbered.first_number;
+  const long step = one_a_number ? 1 : step_between(numbered.numbers);
+  for (std::size_t i = 0; i < numbered.frames.size(); ++i) {
+    const long place = one_each ? static_cast<long>(i) : (numbered.numbers[i] - numbered.first_number) / step;
+    const auto pose = poses.find(place);
+    if (pose != poses.end()) numbered.frames[i].pose = pose->second;
   }
 }
 
@@ -102,17 +119,17 @@ FoundRecording read_numbered_folders(const fs::path& folder, const Context& cont
   FoundRecording found;
   found.folder = folder;
   found.layout = fs::is_directory(folder / "intrinsic") ? "ScanNet's export" : "numbered images";
-  std::vector<long> numbers;
-  found.frames = pair_by_number(numbered_files(depth_folder(folder), "", {".png", ".pgm"}),
-                                numbered_files(colour_folder(folder), "", {".png", ".jpg", ".jpeg"}), folder, context, numbers);
+  NumberedFrames numbered = pair_by_number(numbered_files(depth_folder(folder), "", {".png", ".pgm"}),
+                                           numbered_files(colour_folder(folder), "", {".png", ".jpg", ".jpeg"}), folder, context);
   const fs::path poses = first_folder(folder, {"pose", "poses"});
   const fs::path list = find_pose_list(folder);
   found.tells_poses = !poses.empty() || !list.empty();
   if (!poses.empty()) {
-    add_pose_files(poses, numbers, found.frames);
+    add_pose_files(poses, numbered);
   } else if (!list.empty()) {
-    add_pose_list(list, found.frames);
+    add_pose_list(list, numbered);
   }
+  found.frames = std::move(numbered.frames);
   found.calibration.depth_from_colour = depth_from_colour(folder);
   found.calibration.data_set = kPrimeSense;
   found.calibration.data_set_name = "Open3D's default";

@@ -7,13 +7,20 @@
 
 namespace foothold::io {
 
-/// Pairs images by number. Images without a partner are left out and counted in the log. @throws FileError if no pair is left.
-std::vector<RecordedFrame> pair_by_number(const std::map<long, std::filesystem::path>& depth,
-                                          const std::map<long, std::filesystem::path>& colour, const std::filesystem::path& folder,
-                                          const Context& context, std::vector<long>& numbers);
+/// Frames whose images have numbers.
+struct NumberedFrames {
+  std::vector<RecordedFrame> frames;
+  std::vector<long> numbers;  ///< of the frames, rising
+  long first_number = 0;      ///< of all images, those without a partner included
+};
 
-/// Gives the i-th frame the i-th pose of a list, as numbered there. @throws FileError
-void add_pose_list(const std::filesystem::path& file, std::vector<RecordedFrame>& frames);
+/// Pairs images by number. Images without a partner are left out and counted in the log. @throws FileError if no pair is left.
+NumberedFrames pair_by_number(const std::map<long, std::filesystem::path>& depth, const std::map<long, std::filesystem::path>& colour,
+                              const std::filesystem::path& folder, const Context& context);
+
+/// Gives frames the poses of a list: in their order where there is one for each, else by number, so that none moves up where an image is
+/// missing. @throws FileError
+void add_pose_list(const std::filesystem::path& file, NumberedFrames& numbered);
 
 /// True if a folder holds a folder of depth images and one of colour images.
 bool has_numbered_folders(const std::filesystem::path& folder);

@@ -24,11 +24,11 @@ FoundRecording read_replica(const fs::path& folder, const Context& context) {
   FoundRecording found;
   found.folder = folder;
   found.layout = "Replica";
-  std::vector<long> numbers;
-  found.frames = pair_by_number(numbered_files(folder / "results", "depth", {".png"}),
-                                numbered_files(folder / "results", "frame", {".png", ".jpg"}), folder, context, numbers);
+  NumberedFrames numbered = pair_by_number(numbered_files(folder / "results", "depth", {".png"}),
+                                           numbered_files(folder / "results", "frame", {".png", ".jpg"}), folder, context);
   found.tells_poses = fs::exists(folder / "traj.txt");
-  if (found.tells_poses) add_pose_list(folder / "traj.txt", found.frames);
+  if (found.tells_poses) add_pose_list(folder / "traj.txt", numbered);
+  found.frames = std::move(numbered.frames);
   found.depth_units_per_m = kDepthUnitsPerM;
   found.calibration.data_set = kReplica;
   found.calibration.data_set_name = "Replica's own";

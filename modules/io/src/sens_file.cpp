@@ -17,6 +17,13 @@ constexpr std::uint32_t kVersion = 4;
 constexpr std::uint64_t kMaxFrames = 10'000'000;
 constexpr std::uint64_t kMaxImageBytes = 64U << 20U;
 
+/// The error of a file that ends too early.
+class CutShort : public FileError {
+ public:
+  CutShort(const fs::path& file, const std::string& where)
+      : FileError(file.string() + ": got a file cut short " + where + ", expected a complete .sens file") {}
+};
+
 /// Reads little-endian numbers; complains where the file ends.
 class Reader {
  public:
@@ -30,7 +37,7 @@ class Reader {
   T number(const char* what) {
     T value{};
     if (!stream_.read(reinterpret_cast<char*>(&value), sizeof value)) {
-      throw_file_error(file_, "a file cut short before " + std::string(what), "a complete .sens file");
+      throw CutShort(file_, "before " + std::string(what));
     }
     return value;
   }
@@ -42,7 +49,7 @@ class Reader {
   /// Steps over bytes. @return Where they begin.
   std::uint64_t skip(std::uint64_t num_bytes, const char* what) {
     const auto begin = static_cast<std::uint64_t>(stream_.tellg());
-    if (num_bytes > size_ - begin) throw_file_error(file_, "a file cut short in " + std::string(what), "a complete .sens file");
+    if (num_bytes > size_ - begin) throw CutShort(file_, "in " + std::string(what));
     stream_.seekg(static_cast<std::streamoff>(begin + num_bytes));
     return begin;
   }
@@ -123,18 +130,25 @@ SensContents parse_sens(std::istream& stream, const fs::path& file) {
   }
   const auto num_frames = reader.number<std::uint64_t>("the number of frames");
   if (num_frames == 0 || num_frames > kMaxFrames) throw_file_error(file, std::to_string(num_frames) + " frames", "1 to 10 million");
-  for (std::uint64_t i = 0; i < num_frames; ++i) contents.frames.push_back(frame(reader, depth_coding, colour_coding, file));
+  try {
+    for (std::uint64_t i = 0; i < num_frames; ++i) contents.frames.push_back(frame(reader, depth_coding, colour_coding, file));
+  } catch (const CutShort& error) {
+    if (2 * contents.frames.size() <= num_frames) throw;
+    contents.cut_short = std::string(error.what()) + "; the first " + std::to_string(contents.frames.size()) + " of its " +
+                         std::to_string(num_frames) + " frames are read";
+  }
   return contents;
 }
 
 bool has_sens_file(const fs::path& folder) { return !only_sens_file(folder).empty(); }
 
-FoundRecording read_sens_folder(const fs::path& folder, const Context& /*context*/) { return read_sens_file(only_sens_file(folder)); }
+FoundRecording read_sens_folder(const fs::path& folder, const Context& context) { return read_sens_file(only_sens_file(folder), context); }
 
-FoundRecording read_sens_file(const fs::path& file) {
+FoundRecording read_sens_file(const fs::path& file, const Context& context) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw FileError(file.string() + ": cannot be opened for reading");
   SensContents contents = parse_sens(stream, file);
+  if (!contents.cut_short.empty()) context.log(LogLevel::kWarning, contents.cut_short);
   FoundRecording found;
   found.folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   found.layout = "ScanNet (.sens)";

@@ -113,7 +113,7 @@ std::shared_ptr<Recording> open_recording(const std::string& source, const Conte
   try {
     if (!fs::exists(folder)) throw FileError(source + ": no such folder; expected a recording's folder or synthetic:NAME");
     if (fs::is_regular_file(folder) && folder.extension() == ".sens")
-      return io::make_recording(io::read_sens_file(folder), context, options);
+      return io::make_recording(io::read_sens_file(folder, context), context, options);
     if (!fs::is_directory(folder)) throw_file_error(folder, "a file", "a recording's folder");
     for (const io::Layout& layout : io::layouts()) {
       if (layout.matches(folder)) return io::make_recording(layout.read(folder, context), context, options);

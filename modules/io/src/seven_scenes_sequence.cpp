@@ -63,8 +63,8 @@ std::map<int, FrameFiles> list_frames(const fs::path& folder) {
   throw FileError((folder / name).string() + ": no such file, but " + reason);
 }
 
-/// The files of frames 0, 1, ...; complains about the first image that is missing. The last frame of a recording that was not finished, as
-/// its missing times tell, may lack one: its recorder was killed while it wrote.
+/// The files of frames 0, 1, ..., of which those in the middle may be missing. The last frame of a recording that was not finished, as its
+/// missing times tell, is left out if it lacks one: its recorder was killed while it wrote.
 std::vector<FrameFiles> complete_frames(const fs::path& folder, const Context& context) {
   std::vector<FrameFiles> frames;
   const std::map<int, FrameFiles> found = list_frames(folder);
@@ -75,13 +75,16 @@ std::vector<FrameFiles> complete_frames(const fs::path& folder, const Context& c
       context.log(LogLevel::kWarning, folder.string() + ": frame " + std::to_string(index) + ", the last, lacks an image and is left out");
       break;
     }
-    const int expected = static_cast<int>(frames.size());
-    const std::string reason = "frames are numbered from 0 without gaps, and there are files of frame " + std::to_string(index);
-    if (index != expected) throw_missing(folder, frame_name(expected, ".depth.png"), reason);
-    const std::string other = "there are other files of frame " + std::to_string(index);
-    if (files.depth_suffix.empty()) throw_missing(folder, frame_name(index, ".depth.png"), other);
-    if (files.colour_suffix.empty()) throw_missing(folder, frame_name(index, ".color.png") + " (or .color.jpg)", other);
+    if (found.begin()->first != 0 || 2 * index >= 3 * static_cast<int>(found.size())) {
+      throw_missing(folder, frame_name(static_cast<int>(frames.size()), ".depth.png"),
+                    "frames are numbered from 0, and there are files of frame " + std::to_string(index));
+    }
+    frames.resize(static_cast<std::size_t>(index));
     frames.push_back(files);
+  }
+  for (FrameFiles& files : frames) {
+    if (files.depth_suffix.empty()) files.depth_suffix = ".depth.png";
+    if (files.colour_suffix.empty()) files.colour_suffix = ".color.png";
   }
   return frames;
 }

@@ -44,6 +44,15 @@ Image<std::uint16_t> depth_in_millimetres(const Image<float>& depth_m) {
   return result;
 }
 
+/// What is wrong with a frame besides a colour image of another size.
+std::string describe_error_but_size(const RgbdFrame& frame) {
+  Frame view = frame.view();
+  if (frame.colour.empty()) return describe_frame_error(view);
+  view.colour.width = view.depth.width;
+  view.colour.height = view.depth.height;
+  return describe_frame_error(view);
+}
+
 }  // namespace
 
 void round_depth_as_recorded(Image<float>& depth_m) {
@@ -63,15 +72,18 @@ SevenScenesWriter::SevenScenesWriter(const std::string& folder) : folder_(folder
 }
 
 void SevenScenesWriter::write(const RgbdFrame& frame) {
-  FOOTHOLD_EXPECTS_NO_ERROR(describe_frame_error(frame.view()));
+  FOOTHOLD_EXPECTS_NO_ERROR(describe_error_but_size(frame));
   if (num_frames() == 0) {
     width_ = frame.depth.width();
     height_ = frame.depth.height();
+    colour_width_ = frame.colour.width();
+    colour_height_ = frame.colour.height();
     has_poses_ = frame.world_from_camera.has_value();
     calibration_ = frame.calibration;
     write_calibration();
   }
   FOOTHOLD_EXPECTS(frame.depth.width() == width_ && frame.depth.height() == height_);
+  FOOTHOLD_EXPECTS(frame.colour.width() == colour_width_ && frame.colour.height() == colour_height_);
   FOOTHOLD_EXPECTS(frame.world_from_camera.has_value() == has_poses_);
   FOOTHOLD_EXPECTS(same_calibration(frame.calibration, calibration_));
 

@@ -49,15 +49,15 @@ FoundRecording read_stray_scanner(const fs::path& folder, const Context& context
   found.folder = folder;
   found.layout = "Stray Scanner";
   found.tells_poses = true;
-  std::vector<long> numbers;
-  found.frames = pair_by_number(numbered_files(folder / "depth", "", {".png"}), numbered_files(folder / "rgb", "", {".png", ".jpg"}),
-                                folder, context, numbers);
+  NumberedFrames numbered =
+      pair_by_number(numbered_files(folder / "depth", "", {".png"}), numbered_files(folder / "rgb", "", {".png", ".jpg"}), folder, context);
+  found.frames = std::move(numbered.frames);
   const fs::path file = folder / "odometry.csv";
   const std::vector<OdometryRow> rows = parse_odometry(read_text(file, kMaxListFileBytes), file);
   std::map<long, const OdometryRow*> by_frame;
   for (const OdometryRow& row : rows) by_frame.emplace(row.frame, &row);
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    const auto row = by_frame.find(numbers[i]);
+  for (std::size_t i = 0; i < found.frames.size(); ++i) {
+    const auto row = by_frame.find(numbered.numbers[i]);
     if (row == by_frame.end()) continue;
     found.frames[i].pose = row->second->pose;
     found.frames[i].timestamp_s = row->second->timestamp_s;

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "lost_identities.h"
 #include "text_file.h"
 #include "time_unit.h"
 #include "trajectory.h"
@@ -147,10 +148,6 @@ std::vector<ImagePair> read_pairs(const TumFolder& tum, const Context& context) 
   return pairs;
 }
 
-void check_exists(const fs::path& file, const char* list) {
-  if (!fs::exists(file)) throw FileError(file.string() + ": no such file, but " + list + " lists it");
-}
-
 /// The ground truth, its times brought to those of the frames. Empty without any.
 std::vector<TruePose> read_truth(const TumFolder& folder, double first_frame_s, double last_frame_s, const Context& context) {
   const fs::path& file = folder.ground_truth;
@@ -161,6 +158,7 @@ std::vector<TruePose> read_truth(const TumFolder& folder, double first_frame_s, 
   const double s_per_unit = folder.is_icl_nuim ? 1.0 : sample_unit(times, first_frame_s, last_frame_s, kMaxPoseGap_s);
   for (TruePose& sample : truth) sample.timestamp_s *= s_per_unit;
   tell_unit(file, s_per_unit, context);
+  drop_lost_identities(truth, file.string(), context);
   return truth;
 }
 
@@ -195,8 +193,6 @@ FoundRecording read_tum(const fs::path& path, const Context& context) {
   found.folder = path;
   found.layout = folder.is_icl_nuim ? "ICL-NUIM" : "TUM RGB-D";
   for (const ImagePair& pair : read_pairs(folder, context)) {
-    check_exists(path / pair.depth.name, "a list beside it");
-    check_exists(path / pair.colour.name, "a list beside it");
     found.frames.push_back({{path / pair.depth.name}, {path / pair.colour.name}, pair.depth.timestamp_s, std::nullopt});
   }
   add_poses(folder, found.frames, context);

@@ -47,8 +47,10 @@ FrameRange parse_frame_range(const std::string& text);
 ///   - the folder of a recording in one of the layouts that docs/sequences.md lists: 7-Scenes, TUM RGB-D, ICL-NUIM, ...,
 ///   - "synthetic:NAME?key=value&..." for a rendered room,
 ///   each followed, if wanted, by "@A:B" for a part of it. Frames of a part keep their index in the whole.
-/// @param context  Its log is told which intrinsics and unit of depth are used and where they come from, and warned of what looks wrong.
-/// @return Frames for which the files have no pose, or one that is not finite, come without one.
+/// @param context  Its log is told which intrinsics and unit of depth are used and where they come from, and warned of what looks wrong;
+///                 when frames are loaded, too, by the thread that loads.
+/// @return Frames for which the files have no pose, or one that is not finite, come without one. Frames of which an image is missing or
+/// damaged come without depth, as long as they are fewer than half and the first is whole.
 /// @throws FileError naming the file that is missing, damaged or surplus; InvalidSettings for a range outside the recording.
 std::shared_ptr<Sequence> open_sequence(const std::string& spec, const Context& context, const SequenceOptions& options = {});
 

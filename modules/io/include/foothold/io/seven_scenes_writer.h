@@ -24,7 +24,8 @@ class SevenScenesWriter {
   explicit SevenScenesWriter(const std::string& folder);
 
   /// Adds a frame, numbered on from the last. Poses: either every frame has one, or none.
-  /// @pre describe_frame_error(frame.view()) is empty; size and calibration are those of the first frame; pose or no pose likewise.
+  /// @pre describe_frame_error(frame.view()) is empty but for a colour of another size than depth; sizes and calibration are those of the
+  /// first frame; pose or no pose likewise.
   /// @throws FileError, after which the recording holds the frames before this one.
   void write(const RgbdFrame& frame);
 
@@ -44,6 +45,8 @@ class SevenScenesWriter {
   RgbdCalibration calibration_;
   int width_ = 0;
   int height_ = 0;
+  int colour_width_ = 0;
+  int colour_height_ = 0;
   bool has_poses_ = false;
 };
 
