@@ -24,6 +24,14 @@ void assign_mode(const std::string& mode, OpenNISettings& settings) {
   throw InvalidSettings("--mode: got '" + mode + "', expected WIDTHxHEIGHT@FPS, such as 640x480@30");
 }
 
+/// Reads "640x480". @throws InvalidSettings
+void assign_colour_mode(const std::string& mode, OpenNISettings& settings) {
+  int end = 0;
+  const bool is_read = std::sscanf(mode.c_str(), "%4dx%4d%n", &settings.colour_width, &settings.colour_height, &end) == 2;
+  if (is_read && end == static_cast<int>(mode.size()) && settings.colour_width > 0 && settings.colour_height > 0) return;
+  throw InvalidSettings("--colour-mode: got '" + mode + "', expected WIDTHxHEIGHT, such as 640x480");
+}
+
 /// Modes in words, each once.
 std::string mode_list(const std::vector<OpenNIVideoMode>& modes) {
   std::set<std::string> listed;
@@ -47,6 +55,7 @@ void add_live_options(apps::CommandLine& app, LiveOptions& options) {
   app.add_flag("--list-devices", options.list_devices, "List the cameras and their modes, and end");
   app.add_option("--camera", options.camera, "The camera: an index or a URI of --list-devices, or an .oni file; otherwise the first");
   app.add_option("--mode", options.mode, "Size and rate of depth and colour, as WIDTHxHEIGHT@FPS").show_default();
+  app.add_option("--colour-mode", options.colour_mode, "Size of colour, if it is another, as WIDTHxHEIGHT");
   app.add_option("--calibration", options.calibration_folder,
                  "Folder with camera-intrinsics.txt and the like (docs/sequences.md); otherwise the camera's own field of view")
       .type_name("DIR");
@@ -79,6 +88,7 @@ void add_live_options(apps::CommandLine& app, LiveOptions& options) {
 LiveSettings live_settings(const LiveOptions& options) {
   LiveSettings settings;
   assign_mode(options.mode, settings.camera);
+  if (!options.colour_mode.empty()) assign_colour_mode(options.colour_mode, settings.camera);
   settings.camera.device = options.camera;
   apps::override_settings(options.settings_file, options.settings, "path=value, such as camera.lock_exposure=true", settings);
   settings.validate();

@@ -40,6 +40,7 @@ struct LiveOptions {
   bool list_devices = false;
   std::string camera;
   std::string mode = "640x480@30";
+  std::string colour_mode;  ///< empty for the size of --mode
   std::string calibration_folder;
   std::string settings_file;
   std::vector<std::string> settings;
@@ -64,7 +65,7 @@ struct LiveOptions {
 
 void add_live_options(apps::CommandLine& app, LiveOptions& options);
 
-/// The settings: --mode and --camera, then the settings file, then --set. @throws InvalidSettings, FileError
+/// The settings: --mode, --colour-mode and --camera, then the settings file, then --set. @throws InvalidSettings, FileError
 LiveSettings live_settings(const LiveOptions& options);
 
 /// The calibration that --calibration names, if any. @throws FileError

@@ -8,6 +8,7 @@ import pathlib
 import re
 import shutil
 import signal
+import struct
 import unittest
 
 import app_support
@@ -35,6 +36,7 @@ class CameraTest(LiveTest):
 
     def test_refuses_wrong_options(self):
         self.check_refused("--mode", "big", says=["--mode", "640x480@30"])
+        self.check_refused("--colour-mode", "640", says=["--colour-mode", "640x480"])
         self.check_refused("--set", "camera.fqs=30", says="did you mean 'camera.fps'")
         self.check_refused("--set", "camera.registration=yes", says="auto, device, software or off")
         self.check_refused("--set", "fusion.volume.voxel_size_m=9", says=["voxel_size_m", "[0.001, 0.1]"])
@@ -107,6 +109,19 @@ class RecordTest(LiveTest):
         times = [float(line.split()[1]) for line in (self.folder / "take" / "timestamps.txt").read_text().splitlines()]
         self.assertEqual(times, sorted(times))
         self.assertRegex((self.folder / "take" / "camera-intrinsics.txt").read_text(), r"^(160|159\.99|160\.00)")
+
+    def test_colour_of_another_size_is_recorded_as_it_is_and_reconstructed_registered(self):
+        small = ("--headless", "--mode", "80x60@30", "--colour-mode", "160x120")
+        sizes = {}
+        for folder, option in [("raw", ["--record-only"]), ("take", [])]:
+            self.check_success(*small, "--record", folder, *option, "--frames", 3)
+            for kind in ("depth", "color"):
+                header = (self.folder / folder / f"frame-000000.{kind}.png").read_bytes()[16:24]
+                sizes[folder, kind] = struct.unpack(">II", header)
+        self.assertEqual(sizes["raw", "depth"], (80, 60))
+        self.assertEqual(sizes["raw", "color"], (160, 120))
+        self.assertEqual(sizes["take", "depth"], (80, 60))
+        self.assertEqual(sizes["take", "color"], (80, 60))
 
     def test_survives_an_unplug(self):
         self.plug_in("pattern:160x120", EVENTS="unplug@5+15")

@@ -30,9 +30,7 @@ TEST_CASE("cannot_open_message: tells missing permission from a busy camera") {
 }
 
 TEST_CASE("unknown_mode_message: lists what there is") {
-  OpenNISettings wanted;
-  wanted.fps = 60;
-  CHECK_THAT(unknown_mode_message("depth", wanted, {{320, 240, 60, "depth 1 mm"}, {640, 480, 30, "depth 1 mm"}}),
+  CHECK_THAT(unknown_mode_message("depth", {640, 480, 60, {}}, {{320, 240, 60, "depth 1 mm"}, {640, 480, 30, "depth 1 mm"}}),
              Contains("no depth mode of 640x480 at 60 Hz") && Contains("320x240 at 60 Hz (depth 1 mm), 640x480 at 30 Hz (depth 1 mm)"));
 }
 

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "foothold/frames/register_colour.h"
 #include "pattern_sequence.h"
 #include "support/catch.h"
 #include "virtual_rig.h"
@@ -119,6 +120,52 @@ TEST_CASE("OpenNISource: pairs by time stamps where the camera cannot synchronis
     CHECK(max_depth_error_m(frame) < kHalfMillimetre_m);
     CHECK(has_pattern_colour(frame));
   }
+}
+
+TEST_CASE("OpenNISource: colour may have another size than depth, each with its own calibration") {
+  const VirtualRig rig{{"", "pattern:640x480"}};
+  OpenNISettings settings = rig_settings();
+  settings.registration = GENERATE(as<std::string>{}, "auto", "off");
+  settings.width = 320;
+  settings.height = 240;
+  settings.colour_width = 640;
+  settings.colour_height = 480;
+  OpenNISource source(settings);
+  RgbdFrame frame = next_frame(source);
+  REQUIRE(frame.depth.width() == 320);
+  REQUIRE(frame.colour.width() == 640);
+  CHECK(max_depth_error_m(frame, 2) < kHalfMillimetre_m);
+  CHECK(has_pattern_colour(frame));
+  const Intrinsics depth = virtual_camera::PatternSequence::intrinsics(320, 240);
+  const Intrinsics colour = virtual_camera::PatternSequence::intrinsics(640, 480);
+  CHECK(frame.calibration.depth.fx == Approx(depth.fx).margin(kFocalError_px));
+  CHECK(frame.calibration.depth.cx == Approx(depth.cx));
+  CHECK(frame.calibration.colour.fy == Approx(colour.fy).margin(kFocalError_px));
+  CHECK(frame.calibration.colour.cy == Approx(colour.cy));
+
+  register_colour(frame);
+  CHECK(describe_frame_error(frame.view()).empty());
+  CHECK(is_registered(frame.view()));
+  CHECK(frame.colour(100, 100).g == Approx(virtual_camera::PatternSequence::colour(200, 200, 0).g).margin(1));
+}
+
+TEST_CASE("OpenNISource: depth is registered by software to colour of another size") {
+  const VirtualRig rig{{"FEATURES", "no-registration"}};
+  OpenNISettings settings = rig_settings();
+  settings.width = 80;
+  settings.height = 60;
+  settings.colour_width = 160;
+  settings.colour_height = 120;
+  RgbdCalibration calibration;
+  calibration.depth = virtual_camera::PatternSequence::intrinsics(80, 60);
+  calibration.colour = virtual_camera::PatternSequence::intrinsics(160, 120);
+  OpenNISource source(settings, calibration);
+  const RgbdFrame frame = next_frame(source);
+  CHECK(source.status().registered);
+  CHECK(frame.calibration.depth.fx == Approx(80.0F));
+  CHECK(frame.calibration.colour.fx == 160.0F);
+  CHECK(frame.depth(40, 30) ==
+        Approx(0.001F * static_cast<float>(virtual_camera::PatternSequence::depth_mm(80, 60, pattern_frame(frame)))));
 }
 
 TEST_CASE("OpenNISource: chooses a camera by index and by URI") {
@@ -239,10 +286,10 @@ TEST_CASE("OpenNISettings: every default") {
   CHECK_NOTHROW(settings.validate());
   std::vector<std::string> texts;
   for (const SettingDescription& setting : describe_settings(settings)) texts.push_back(setting.path + "=" + setting.value);
-  CHECK(texts == std::vector<std::string>{"device=", "width=640", "height=480", "fps=30", "registration=auto", "synchronise=true",
-                                          "lock_exposure=false", "lock_white_balance=false", "settle_ms=1000", "pair_tolerance_ms=0",
-                                          "open_timeout_ms=15000", "read_timeout_ms=1000", "silence_timeout_ms=3000",
-                                          "close_timeout_ms=5000"});
+  CHECK(texts == std::vector<std::string>{"device=", "width=640", "height=480", "colour_width=0", "colour_height=0", "fps=30",
+                                          "registration=auto", "synchronise=true", "lock_exposure=false", "lock_white_balance=false",
+                                          "settle_ms=1000", "pair_tolerance_ms=0", "open_timeout_ms=15000", "read_timeout_ms=1000",
+                                          "silence_timeout_ms=3000", "close_timeout_ms=5000"});
 }
 
 }  // namespace

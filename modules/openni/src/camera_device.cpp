@@ -19,11 +19,11 @@ namespace {
 constexpr Rgb8 kGrey{128, 128, 128};  ///< what cameras without a colour sensor see
 
 /// The pinhole camera with a field of view, its principal point in the middle of the image.
-Intrinsics intrinsics_from_field_of_view(const openni::VideoStream& stream, const OpenNISettings& settings, const std::string& sensor) {
+Intrinsics intrinsics_from_field_of_view(const openni::VideoStream& stream, const ModeSize& size, const std::string& sensor) {
   const float horizontal_rad = stream.getHorizontalFieldOfView();
   const float vertical_rad = stream.getVerticalFieldOfView();
-  const auto width = static_cast<float>(settings.width);
-  const auto height = static_cast<float>(settings.height);
+  const auto width = static_cast<float>(size.width);
+  const auto height = static_cast<float>(size.height);
   const Intrinsics intrinsics{0.5F * width / std::tan(0.5F * horizontal_rad), 0.5F * height / std::tan(0.5F * vertical_rad),
                               0.5F * (width - 1.0F), 0.5F * (height - 1.0F)};
   if (!is_valid(intrinsics))
@@ -46,16 +46,24 @@ void copy_image(const openni::VideoFrameRef& from, bool mirrored, Image<To>& to,
 }
 
 template <class Pixel>
-bool holds(const openni::VideoFrameRef& image, const OpenNISettings& settings) {
-  return image.getWidth() == settings.width && image.getHeight() == settings.height && image.getData() != nullptr &&
-         image.getStrideInBytes() >= settings.width * static_cast<int>(sizeof(Pixel)) &&
-         image.getDataSize() >= (settings.height - 1) * image.getStrideInBytes() + settings.width * static_cast<int>(sizeof(Pixel));
+bool holds(const openni::VideoFrameRef& image, const ModeSize& size) {
+  return image.getWidth() == size.width && image.getHeight() == size.height && image.getData() != nullptr &&
+         image.getStrideInBytes() >= size.width * static_cast<int>(sizeof(Pixel)) &&
+         image.getDataSize() >= (size.height - 1) * image.getStrideInBytes() + size.width * static_cast<int>(sizeof(Pixel));
+}
+
+ModeSize colour_size(const OpenNISettings& settings) {
+  return settings.colour_width > 0 ? ModeSize{settings.colour_width, settings.colour_height} : ModeSize{settings.width, settings.height};
 }
 
 }  // namespace
 
 CameraDevice::CameraDevice(const std::string& uri, const Options& options)
-    : options_(options), depth_listener_(depth_arrived_, options.wake), colour_listener_(colour_arrived_, options.wake) {
+    : options_(options),
+      depth_size_{options.settings.width, options.settings.height},
+      colour_size_(colour_size(options.settings)),
+      depth_listener_(depth_arrived_, options.wake),
+      colour_listener_(colour_arrived_, options.wake) {
   open(uri);
   try {
     create_stream(depth_, openni::SENSOR_DEPTH, {openni::PIXEL_FORMAT_DEPTH_1_MM, openni::PIXEL_FORMAT_DEPTH_100_UM});
@@ -95,7 +103,8 @@ void CameraDevice::create_stream(openni::VideoStream& stream, openni::SensorType
   const bool is_depth = sensor == openni::SENSOR_DEPTH;
   const std::string name = is_depth ? "depth" : "colour";
   options_.is_doing("setting up the " + name + " stream");
-  const OpenNISettings& settings = options_.settings;
+  const ModeSize& size = is_depth ? depth_size_ : colour_size_;
+  const int fps = options_.settings.fps;
   const openni::SensorInfo* sensor_info = device_.getSensorInfo(sensor);
   if (sensor_info == nullptr) throw DeviceError(no_depth_message(info_.uri));
 
@@ -103,12 +112,13 @@ void CameraDevice::create_stream(openni::VideoStream& stream, openni::SensorType
   const openni::VideoMode* chosen = nullptr;
   for (const openni::PixelFormat format : formats) {
     for (int i = 0; i < modes.getSize() && chosen == nullptr; ++i) {
-      const bool fits =
-          modes[i].getResolutionX() == settings.width && modes[i].getResolutionY() == settings.height && modes[i].getFps() == settings.fps;
+      const bool fits = modes[i].getResolutionX() == size.width && modes[i].getResolutionY() == size.height && modes[i].getFps() == fps;
       if (fits && modes[i].getPixelFormat() == format) chosen = &modes[i];
     }
   }
-  if (chosen == nullptr) throw InvalidSettings(unknown_mode_message(name, settings, is_depth ? info_.depth_modes : info_.colour_modes));
+  if (chosen == nullptr)
+    throw InvalidSettings(
+        unknown_mode_message(name, {size.width, size.height, fps, {}}, is_depth ? info_.depth_modes : info_.colour_modes));
 
   // A recording has one mode, and setting even that one fails.
   if (stream.create(device_, sensor) != openni::STATUS_OK ||
@@ -120,7 +130,13 @@ void CameraDevice::create_stream(openni::VideoStream& stream, openni::SensorType
   (is_depth ? depth_mirrored_ : colour_mirrored_) = stream.getMirroringEnabled();
   (is_depth ? sensor_calibration_.depth : sensor_calibration_.colour) =
       options_.calibration.has_value() ? (is_depth ? options_.calibration->depth : options_.calibration->colour)
-                                       : intrinsics_from_field_of_view(stream, settings, name);
+                                       : intrinsics_from_field_of_view(stream, size, name);
+}
+
+Intrinsics CameraDevice::colour_camera_of_depth() const {
+  const Intrinsics& colour = sensor_calibration_.colour;
+  if (depth_size_.width == colour_size_.width) return colour;
+  return colour.scaled(static_cast<float>(depth_size_.width) / static_cast<float>(colour_size_.width));
 }
 
 void CameraDevice::register_images() {
@@ -131,9 +147,11 @@ void CameraDevice::register_images() {
   if (options_.calibration.has_value()) sensor_calibration_.depth_from_colour = options_.calibration->depth_from_colour;
   if (wanted == "auto" || wanted == "device") {
     const auto mode = openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR;
-    by_device_ = device_.isImageRegistrationModeSupported(mode) && device_.setImageRegistrationMode(mode) == openni::STATUS_OK;
+    const bool same_view = depth_size_.width * colour_size_.height == depth_size_.height * colour_size_.width;
+    by_device_ = same_view && device_.isImageRegistrationModeSupported(mode) && device_.setImageRegistrationMode(mode) == openni::STATUS_OK;
     if (!by_device_ && wanted == "device") {
-      throw DeviceError("camera '" + info_.uri + "' does not offer registration; choose software (with a calibration file), auto or off");
+      throw DeviceError("camera '" + info_.uri + "' does not offer registration" + (same_view ? "" : " of images of other proportions") +
+                        "; choose software (with a calibration file), auto or off");
     }
   } else if (device_.isImageRegistrationModeSupported(openni::IMAGE_REGISTRATION_OFF)) {
     device_.setImageRegistrationMode(openni::IMAGE_REGISTRATION_OFF);
@@ -143,7 +161,7 @@ void CameraDevice::register_images() {
     options_.warn("camera '" + info_.uri +
                   "' offers no registration, and no calibration file was given: depth and colour will not show quite the same points");
   }
-  calibration_ = is_registered() ? RgbdCalibration{sensor_calibration_.colour, sensor_calibration_.colour, SE3()} : sensor_calibration_;
+  calibration_ = is_registered() ? RgbdCalibration{colour_camera_of_depth(), sensor_calibration_.colour, SE3()} : sensor_calibration_;
 }
 
 void CameraDevice::start() {
@@ -186,22 +204,22 @@ std::optional<openni::VideoFrameRef> CameraDevice::take(openni::VideoStream& str
 }
 
 bool CameraDevice::convert(const openni::VideoFrameRef& depth, const openni::VideoFrameRef& colour, RgbdFrame& frame) const {
-  const OpenNISettings& settings = options_.settings;
-  if (!holds<openni::DepthPixel>(depth, settings)) return false;
+  if (!holds<openni::DepthPixel>(depth, depth_size_)) return false;
   const float units_per_m = depth.getVideoMode().getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM ? 10000.0F : 1000.0F;
   copy_image<openni::DepthPixel>(depth, depth_mirrored_, frame.depth,
                                  [units_per_m](openni::DepthPixel z) { return static_cast<float>(z) / units_per_m; });
   if (has_colour()) {
-    if (!holds<openni::RGB888Pixel>(colour, settings)) return false;
+    if (!holds<openni::RGB888Pixel>(colour, colour_size_)) return false;
     copy_image<openni::RGB888Pixel>(colour, colour_mirrored_, frame.colour, [](const openni::RGB888Pixel& c) {
       return Rgb8{c.r, c.g, c.b};
     });
   } else {
-    frame.colour = Image<Rgb8>(settings.width, settings.height, kGrey);
+    frame.colour = Image<Rgb8>(depth_size_.width, depth_size_.height, kGrey);
   }
   if (by_software_) {
     Image<float> registered;
-    register_depth_to_colour(frame.depth, sensor_calibration_, registered);
+    register_depth_to_colour(frame.depth, {sensor_calibration_.depth, calibration_.depth, sensor_calibration_.depth_from_colour},
+                             registered);
     frame.depth = std::move(registered);
   }
   frame.calibration = calibration_;

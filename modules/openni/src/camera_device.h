@@ -16,6 +16,12 @@
 
 namespace foothold::capture {
 
+/// The size of a sensor's images [px].
+struct ModeSize {
+  int width = 0;
+  int height = 0;
+};
+
 /// A camera whose streams run.
 class CameraDevice {
  public:
@@ -69,11 +75,15 @@ class CameraDevice {
   void open(const std::string& uri);
   void create_stream(openni::VideoStream& stream, openni::SensorType sensor, const std::vector<openni::PixelFormat>& formats);
   void register_images();
+  /// The colour camera at depth's resolution: the one that sees registered depth.
+  Intrinsics colour_camera_of_depth() const;
   void start();
   void close();
   static std::optional<openni::VideoFrameRef> take(openni::VideoStream& stream, std::atomic<bool>& arrived);
 
   Options options_;
+  ModeSize depth_size_;
+  ModeSize colour_size_;
   OpenNIDeviceInfo info_;
   RgbdCalibration sensor_calibration_;  // of the images as they arrive
   RgbdCalibration calibration_;         // of the images as they are delivered

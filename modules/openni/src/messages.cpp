@@ -95,11 +95,13 @@ std::string describe_mode(const OpenNIVideoMode& mode) {
   return std::to_string(mode.width) + "x" + std::to_string(mode.height) + " at " + std::to_string(mode.fps) + " Hz (" + mode.format + ")";
 }
 
-std::string unknown_mode_message(const std::string& sensor, const OpenNISettings& wanted, const std::vector<OpenNIVideoMode>& modes) {
+std::string unknown_mode_message(const std::string& sensor, const OpenNIVideoMode& wanted, const std::vector<OpenNIVideoMode>& modes) {
   std::string text = "the camera has no " + sensor + " mode of " + std::to_string(wanted.width) + "x" + std::to_string(wanted.height) +
                      " at " + std::to_string(wanted.fps) + " Hz that Foothold can read. It offers: ";
   for (std::size_t i = 0; i < modes.size(); ++i) text += (i == 0 ? "" : ", ") + describe_mode(modes[i]);
-  return text + ". Choose width, height and fps that both sensors offer, depth in 1 mm or 0.1 mm, colour in RGB.";
+  return text +
+         ". Choose a size and fps that the sensor offers; colour may have a size of its own. Depth must come in 1 mm or 0.1 mm, colour in "
+         "RGB.";
 }
 
 std::string no_depth_message(const std::string& uri) {

@@ -25,7 +25,7 @@ std::string no_driver_message(const std::string& openni_error);
 std::string cannot_open_message(const std::string& uri, const std::string& node, UsbAccess access, const std::string& openni_error);
 
 /// A sensor does not offer the mode that was asked for.
-std::string unknown_mode_message(const std::string& sensor, const OpenNISettings& wanted, const std::vector<OpenNIVideoMode>& modes);
+std::string unknown_mode_message(const std::string& sensor, const OpenNIVideoMode& wanted, const std::vector<OpenNIVideoMode>& modes);
 
 /// A camera without a depth sensor is of no use.
 std::string no_depth_message(const std::string& uri);

@@ -37,6 +37,10 @@ std::vector<OpenNIDeviceInfo> ask_for_devices() {
 
 void OpenNISettings::validate() const {
   validate_settings(*this);
+  if ((colour_width == 0) != (colour_height == 0)) {
+    throw InvalidSettings("setting colour_height: got " + std::to_string(colour_height) + " with a colour_width of " +
+                          std::to_string(colour_width) + ", expected both, or 0 for both");
+  }
   if (registration != "auto" && registration != "device" && registration != "software" && registration != "off") {
     throw InvalidSettings("setting registration: got '" + registration + "', expected auto, device, software or off");
   }

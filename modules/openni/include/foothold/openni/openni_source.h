@@ -48,6 +48,8 @@ struct OpenNISettings {
   std::string device;
   int width = 640;  ///< 640x480 at 30 Hz is the mode that every PrimeSense camera has
   int height = 480;
+  int colour_width = 0;  ///< 0 for that of depth, as is the height's
+  int colour_height = 0;
   int fps = 30;
   /// Brings depth into the colour camera: "device" by the camera; "software" by Foothold, from the calibration; "off" not at all; "auto":
   /// the first of the former that is possible.
@@ -65,8 +67,10 @@ struct OpenNISettings {
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&OpenNISettings::device, "device", "Empty for the first camera, an index, a URI, or an .oni file.");
-    v(&OpenNISettings::width, "width", "Width of depth and colour images [px].", Range{16, 4096});
-    v(&OpenNISettings::height, "height", "Height of depth and colour images [px].", Range{16, 4096});
+    v(&OpenNISettings::width, "width", "Width of depth images, and of colour unless told [px].", Range{16, 4096});
+    v(&OpenNISettings::height, "height", "Height of depth images, and of colour unless told [px].", Range{16, 4096});
+    v(&OpenNISettings::colour_width, "colour_width", "Width of colour images [px]; 0 for that of depth.", Range{0, 4096});
+    v(&OpenNISettings::colour_height, "colour_height", "Height of colour images [px]; 0 for that of depth.", Range{0, 4096});
     v(&OpenNISettings::fps, "fps", "Frames per second.", Range{1, 1000});
     v(&OpenNISettings::registration, "registration", "Depth-to-colour registration: auto, device, software or off.");
     v(&OpenNISettings::synchronise, "synchronise", "Ask the camera to expose depth and colour at the same time.");
@@ -117,7 +121,7 @@ class OpenNISource : public FrameSource {
   ///
   /// @param calibration  Replaces the intrinsics that the camera reports; with its extrinsics, makes registration by software possible. It
   /// must
-  ///                     belong to the size of the settings.
+  ///                     belong to the sizes of the settings.
   /// @param log          Receives messages about unplugging and the like, within calls of the constructor, read() and the destructor.
   /// @throws InvalidSettings  for settings out of range, or a video mode that the camera does not offer; the message lists those it does.
   /// @throws FileError        if an .oni file does not exist.
@@ -127,7 +131,8 @@ class OpenNISource : public FrameSource {
   ~OpenNISource() override;
 
   /// Waits for a pair that has not been delivered yet, for at most read_timeout_ms. Depth 0 means no measurement. The frame's index counts
-  /// the camera's pairs, skipped ones included; its time starts with the source and never goes back.
+  /// the camera's pairs, skipped ones included; its time starts with the source and never goes back. Where the settings ask for colour of
+  /// another size than depth, register_colour() brings it to that of depth.
   ReadStatus read(RgbdFrame& frame) override;
 
   /// May be called from any thread.
