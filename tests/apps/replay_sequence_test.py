@@ -100,8 +100,15 @@ class DefectsTest(ReplayTest):
         self.assertEqual(run["ate_frames"], 7)
         self.assertLess(run["ate"]["rmse_m"], 0.1)
 
-    def test_what_came_before_a_damaged_frame_is_saved(self):
+    def test_a_frame_whose_image_cannot_be_read_is_one_without_depth(self):
         (self.folder / "recording" / "frame-000005.depth.png").write_bytes(b"")
+        result = self.replay("--method", "none", sequence="recording")
+        self.assertEqual((result["undisturbed"]["frames"], result["undisturbed"]["without_depth"]), (8, 1))
+        self.assertIn("frame-000005.depth.png", result["warnings"][0])
+
+    def test_what_came_before_a_frame_of_another_size_is_saved(self):
+        rows = [struct.pack(">H", 1500) * 80] * 60
+        app_support.write_png(self.folder / "recording" / "frame-000005.depth.png", 80, 60, rows, 16, 1)
         result = self.run_app("recording", "--method", "none", "--json", "result.json", "--save-trajectory", "trajectory.txt")
         self.assertEqual(result.returncode, 2)
         self.assertIn("frame-000005.depth.png", result.stderr)
