@@ -14,6 +14,7 @@
 #include <iostream>
 #include <new>
 #include <opencv2/core.hpp>
+#include <system_error>
 
 #include "foothold/base/error.h"
 
@@ -85,7 +86,9 @@ int exit_code_of(const std::function<int()>& body) {
     log_error(error.code == cv::Error::StsNoMem ? "out of memory" : std::string("unexpected: ") + error.what());
     return error.code == cv::Error::StsNoMem ? kOutOfMemory : kBug;
   } catch (const std::exception& error) {
-    const bool is_out_of_threads = std::strstr(error.what(), "pthread_create") != nullptr;  // as oneTBB says; they need memory, too
+    const auto* of_system = dynamic_cast<const std::system_error*>(&error);  // as std::thread says; threads need memory, too
+    const bool is_out_of_threads = (of_system != nullptr && of_system->code() == std::errc::resource_unavailable_try_again) ||
+                                   std::strstr(error.what(), "pthread_create") != nullptr;  // as oneTBB says
     log_error(is_out_of_threads ? std::string("out of memory: ") + error.what() : std::string("unexpected: ") + error.what());
     return is_out_of_threads ? kOutOfMemory : kBug;
   }
