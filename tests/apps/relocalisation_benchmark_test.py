@@ -172,7 +172,7 @@ class BadInputTest(app_support.AppTest):
         self.assertNotIn("ferns:", refused.stderr)
 
     def check_damaged(self, damage, says):
-        """Damages frame 2 of a good recording, then restores the folder."""
+        """Damages a good recording, then restores the folder."""
         recording = self.folder / "recording"
         app_support.write_seven_scenes(recording, 4)
         damage(recording)
@@ -194,9 +194,9 @@ class BadInputTest(app_support.AppTest):
         def smaller_colour(folder):
             app_support.write_png(folder / "frame-000002.color.png", 40, 30, [b"\x10\x20\x30" * 40] * 30, 8, 3)
 
-        for kind in ["color.png", "depth.png"]:
-            name = f"frame-000002.{kind}"
-            self.check_damaged(lambda folder, n=name: (folder / n).unlink(), says="frame-000002")
+        for kind in ["color.png", "depth.png"]:  # an image in the middle makes a frame without depth; the first must be there
+            name = f"frame-000000.{kind}"
+            self.check_damaged(lambda folder, n=name: (folder / n).unlink(), says="frame-000000")
             self.check_damaged(truncate(name), says=name)
         self.check_damaged(write_pose("1 0 0\n"), says="frame-000002.pose.txt")
         self.check_damaged(write_pose("2 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n"), says="frame-000002.pose.txt")
