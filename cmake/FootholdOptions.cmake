@@ -87,6 +87,7 @@ if(NOT FOOTHOLD_IO STREQUAL "OFF")
   find_package(OpenCV QUIET COMPONENTS core imgproc imgcodecs calib3d highgui ml)
   find_package(ZLIB QUIET)
   find_package(CLI11 QUIET)
+  find_package(OpenEXR 3 QUIET)  # optional: depth in EXR images
   foreach(package OpenCV ZLIB nlohmann_json CLI11)
     if(NOT ${package}_FOUND)
       string(APPEND missing " ${package}")

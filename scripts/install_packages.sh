@@ -13,7 +13,7 @@ set -euo pipefail
 packages=(
   build-essential cmake ninja-build ccache pkgconf                          # to build
   libeigen3-dev libtbb-dev                                                  # the libraries
-  libopencv-dev zlib1g-dev nlohmann-json3-dev libcli11-dev libopenni2-dev  # reading sequences, cameras, and the apps
+  libopencv-dev libopenexr-dev zlib1g-dev nlohmann-json3-dev libcli11-dev libopenni2-dev  # reading sequences, cameras, and the apps
   catch2 python3 xvfb xauth locales                                         # the tests; Python also writes the report
 )
 case "${1:-}" in

@@ -91,8 +91,9 @@ struct ViewContents {
   std::vector<ViewMoment> history;  ///< oldest first
   MapContents map;
 
-  std::string notice;    ///< what happened last
-  std::string counters;  ///< such as "0 frames skipped"
+  std::string notice;                 ///< what happened last
+  std::vector<std::string> warnings;  ///< in their order
+  std::string counters;               ///< such as "0 frames skipped"
   std::vector<ViewKey> keys;
   bool show_help = false;
 };

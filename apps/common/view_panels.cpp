@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "common/view_style.h"
+#include "common/view_warnings.h"
 #include "foothold/base/number_text.h"
 #include "foothold/io/image_file.h"
 
@@ -77,7 +78,8 @@ void draw_header(Canvas& canvas, const cv::Rect& area, const ViewContents& conte
 
   const double right = area.x + area.width;
   const double title_width = right - (bar_x + 260.0);
-  canvas.text({right, middle - 10.0}, Canvas::shortened(contents.title, kBody, title_width), kBody, kText, TextAlign::kRight);
+  canvas.text({right, middle - 10.0}, Canvas::shortened(with_short_paths(contents.title), kBody, title_width), kBody, kText,
+              TextAlign::kRight);
   canvas.text({right, middle + 10.0}, contents.frame_text, kLabel, kDimText, TextAlign::kRight);
 }
 

@@ -4,6 +4,7 @@
 
 #include "common/view_panels.h"
 #include "common/view_style.h"
+#include "common/view_warnings.h"
 
 namespace foothold::apps {
 namespace {
@@ -25,6 +26,7 @@ constexpr int kMapX = kModelX + kModelWidth + kGap;
 constexpr int kLowerY = kTop + kModelHeight + kGap;
 constexpr int kBottom = kTop + 2 * kCameraHeight + kGap;
 constexpr int kHistoryX = kModelX + kTimingsWidth + kGap;
+constexpr int kShortHistoryHeight = 126;  // with warnings below
 constexpr int kRight = kViewWidth - kEdge;
 static_assert(kBottom + kFooterHeight <= kViewHeight, "the parts fit");
 
@@ -42,7 +44,12 @@ cv::Mat compose_view(const ViewContents& contents) {
                contents.model_is_current ? 1.0 : kStaleBrightness);
   draw_map(canvas, {kMapX, kTop, kRight - kMapX, kModelHeight}, contents.map);
   draw_timings(canvas, {kModelX, kLowerY, kTimingsWidth, kBottom - kLowerY}, contents);
-  draw_history(canvas, {kHistoryX, kLowerY, kRight - kHistoryX, kBottom - kLowerY}, contents.history);
+  const int history_height = contents.warnings.empty() ? kBottom - kLowerY : kShortHistoryHeight;
+  draw_history(canvas, {kHistoryX, kLowerY, kRight - kHistoryX, history_height}, contents.history);
+  if (!contents.warnings.empty()) {
+    const int y = kLowerY + kShortHistoryHeight + kGap;
+    draw_warnings(canvas, {kHistoryX, y, kRight - kHistoryX, kBottom - y}, contents.warnings);
+  }
   draw_footer(canvas, {kEdge, kViewHeight - kFooterHeight, kRight - kEdge, kFooterHeight}, contents);
   if (contents.show_help) draw_help(canvas, contents.keys);
   return canvas.pixels();

@@ -234,8 +234,8 @@ apps::ViewContents LiveRun::contents() {
   if (reconstruction_ == nullptr) contents.state = apps::ViewState::kRecording;
   if (paused_) contents.state = apps::ViewState::kPaused;
   if (status_.state != OpenNIState::kStreaming) contents.state = apps::ViewState::kWaiting;
-  const std::vector<std::string> warnings = apps::warnings();
-  contents.notice = notice_.empty() && !warnings.empty() ? "warning: " + warnings.back() : notice_;
+  contents.notice = notice_;
+  contents.warnings = apps::warnings();
   contents.counters = counters();
   contents.keys = live_keys();
   contents.show_help = show_help_;

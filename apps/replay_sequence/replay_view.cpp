@@ -55,8 +55,8 @@ void ReplayView::draw(const RgbdFrame& frame, const FusionPipeline& pipeline) {
   ViewContents contents = monitor_.contents(frame, pipeline);
   contents.title = title_;
   contents.frame_text = "frame " + std::to_string(frame.index) + " of " + std::to_string(num_frames_);
-  const std::vector<std::string> warnings = apps::warnings();
-  contents.notice = notice_.empty() && !warnings.empty() ? "warning: " + warnings.back() : notice_;
+  contents.notice = notice_;
+  contents.warnings = apps::warnings();
   contents.counters = run_;
   contents.show_help = show_help_;
   if (!folder_.empty()) {

@@ -142,7 +142,8 @@ std::string text_report(const Recording& recording, const Course& course, const 
   const Intrinsics& k = f.calibration.depth;
   std::string text =
       f.folder + "\n  layout      " + f.layout + ", " + std::to_string(recording.num_frames()) + " frames, " + course_text(course) + "\n";
-  text += format("  depth       %dx%d, in 1/%g m (%s)\n", f.depth_width, f.depth_height, f.depth_units_per_m, f.depth_unit_source.c_str());
+  text +=
+      format("  depth       %dx%d, in %s (%s)\n", f.depth_width, f.depth_height, depth_unit_text(f).c_str(), f.depth_unit_source.c_str());
   text += format("              %.0f %% of the pixels valid, median %.2f m, %.0f %% of it between %g and %g m (%d frames)\n",
                  100.0 * check.valid_fraction, check.median_depth_m, 100.0 * check.within_fraction, kLeastMedianDepth_m, kMostMedianDepth_m,
                  check.num_depth_frames);

@@ -3,10 +3,13 @@
 /// The picture of a running reconstruction: that everything is where it belongs, whatever is shown.
 #include "common/view_picture.h"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
+#include "common/canvas.h"
 #include "common/view_style.h"
+#include "common/view_warnings.h"
 #include "foothold/io/image_file.h"
 #include "support/catch.h"
 
@@ -109,6 +112,48 @@ TEST_CASE("compose_view: relocalised poses are marked on the map and in the hist
   CHECK(count(compose_view(contents), kMap, style::kBlue) == 0);
   contents.map.trajectory.back().relocalised = true;
   CHECK(count(compose_view(contents), kMap, style::kBlue) > 20);
+}
+
+TEST_CASE("compose_view: warnings have a place of their own, and leave the rest as it is") {
+  const cv::Rect warnings_area(734, 570, 530, 110);
+  const cv::Rect lower_right(734, 432, 530, 248);
+  ViewContents contents = busy_contents();
+  const cv::Mat before = compose_view(contents);
+  CHECK(count(before, warnings_area, style::kAmber) == 0);
+  contents.warnings = {"the map is full"};
+  const cv::Mat one = compose_view(contents);
+  CHECK(count(one, warnings_area, style::kAmber) > 100);
+  contents.warnings = std::vector<std::string>(40, std::string(900, 'W'));
+  const cv::Mat many = compose_view(contents);
+  for (const cv::Mat& after : {one, many}) {
+    CHECK(same(before, after, {0, 0, kViewWidth, lower_right.y}));
+    CHECK(same(before, after, {0, 0, lower_right.x, kViewHeight}));
+    CHECK(same(before, after, {0, lower_right.br().y, kViewWidth, kViewHeight - lower_right.br().y}));
+    CHECK(same(before, after, {lower_right.br().x, 0, kViewWidth - lower_right.br().x, kViewHeight}));
+  }
+}
+
+TEST_CASE("wrapped: lines fit, and hold the whole message") {
+  const std::string message = "2 of its 40 frames cannot be read, " + std::string(300, 'W') + " and count as frames without depth";
+  constexpr double kWidth = 200.0;
+  std::string joined;
+  for (const std::string& line : wrapped(message, style::kLabel, kWidth)) {
+    CHECK(Canvas::text_width(line, style::kLabel) <= kWidth);
+    joined += line;
+  }
+  const auto without_blanks = [](std::string text) {
+    text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
+    return text;
+  };
+  CHECK(without_blanks(joined) == without_blanks(message));
+  CHECK(wrapped("", style::kLabel, kWidth) == std::vector<std::string>{""});
+}
+
+TEST_CASE("with_short_paths: of a long path its end remains") {
+  CHECK(with_short_paths("/home/someone/recordings/of/2026/kitchen/frame-000018.depth.png: cut short") ==
+        ".../frame-000018.depth.png: cut short");
+  CHECK(with_short_paths("/a/b: " + std::string(50, 'W')) == "/a/b: " + std::string(50, 'W'));
+  CHECK(with_short_paths("/home/" + std::string(60, 'w') + ": x") == ".../" + std::string(60, 'w') + ": x");
 }
 
 TEST_CASE("compose_view: long texts are cut before they reach their neighbours") {

@@ -36,6 +36,7 @@ ALLOWED_BELOW = {"modules/openni/virtual_camera": ["frames", "io"]}
 # External libraries, by the includes that betray them, and the places that may have them. "modules/x" covers everything below it.
 LIBRARIES = [
     ("OpenCV", r"opencv2?/", ["modules/io", "modules/learning", "apps", "tests/io", "tests/learning", "tests/apps"]),
+    ("OpenEXR", r"OpenEXR/|Imath/", ["modules/io/src/exr_image.cpp", "tests/io"]),
     ("OpenNI2", r"(OpenNI|Oni[A-Z]\w*|PS1080|Driver/OniDriverAPI)\.h$|openni2/", ["modules/openni", "tests/openni"]),
     ("nlohmann-json", r"nlohmann/", ["modules/files", "apps/common/json.cpp"]),
     ("CLI11", r"CLI/", ["apps/common/command_line.cpp"]),

@@ -155,11 +155,13 @@ TEST_CASE("check_recording: poses of another convention are told by how they fit
   CHECK(warnings_of(temp.path()).empty());
 }
 
-TEST_CASE("check_recording: depth along rays, and intrinsics a fifth too large, do not fit the poses") {
+TEST_CASE("check_recording: depth along rays, focal lengths a fifth too large and depth of an odd scale are told by name") {
   const TempFolder temp;
   write_room_as_seven_scenes(temp.path());
   SequenceOptions options;
+  std::string expected;
   SECTION("rays") {
+    expected = "along rays instead of the optical axis";
     const Intrinsics& k = room_frames().front().calibration.depth;
     for (std::size_t i = 0; i < room_frames().size(); ++i) {
       Image<float> rays = room_frames()[i].depth;
@@ -169,8 +171,15 @@ TEST_CASE("check_recording: depth along rays, and intrinsics a fifth too large, 
       write_png(temp / ("frame-0000" + std::string(i < 10 ? "0" : "") + std::to_string(i) + ".depth.png"), depth_in_units(rays, 1000.0));
     }
   }
-  SECTION("intrinsics") { options.intrinsics = "180,180,79.625,59.625"; }
-  CHECK_THAT(warnings_of(temp.path(), options), Contains("of the depth agrees between frames") && Contains("may be wrong"));
+  SECTION("intrinsics") {
+    options.intrinsics = "180,180,79.625,59.625";
+    expected = "with focal lengths of about 1";
+  }
+  SECTION("scale") {
+    options = with_scale(1500.0);
+    expected = "with depth about 1.5 times as large";
+  }
+  CHECK_THAT(warnings_of(temp.path(), options), Contains("of the depth agrees between frames") && Contains(expected));
 }
 
 TEST_CASE("check_recording: positions in a unit that has no name here are doubted, and no other unit is advised") {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "camera_model.h"
+#include "exr_image.h"
 #include "foothold/base/contract.h"
 #include "foothold/frames/register_colour.h"
 #include "foothold/io/recording_check.h"
@@ -64,19 +65,18 @@ PoseConvention pose_convention(const FoundRecording& found, const SequenceOption
 }
 
 ImageSize size_of(const StoredImage& image, const ImageSize& raw_size) {
+  if (image.coding == ImageCoding::kExr) return parse_exr_header(read_stored_image(image), image.file).size;
   if (image.coding != ImageCoding::kFile) return raw_size;
   const std::optional<ImageHeader> header = parse_image_header(read_stored_image(image));
   if (!header.has_value()) throw_file_error(image.file, "a damaged or empty image", "a complete PNG or JPEG image");
   return header->size;
 }
 
-Image<float> in_metres(const Image<std::uint16_t>& raw, float units_per_m) {
+float in_metres(std::uint16_t value, float units_per_m) {
   constexpr std::uint16_t kInvalid = 65535;
-  Image<float> depth(raw.width(), raw.height());
-  std::transform(raw.data(), raw.data() + raw.size(), depth.data(),
-                 [&](std::uint16_t value) { return value == kInvalid ? 0.0F : static_cast<float>(value) / units_per_m; });
-  return depth;
+  return value == kInvalid ? 0.0F : static_cast<float>(value) / units_per_m;
 }
+float in_metres(float value, float units_per_m) { return std::isfinite(value) && value > 0.0F ? value / units_per_m : 0.0F; }
 
 template <class T>
 void check_size(const Image<T>& image, const ImageSize& expected, const fs::path& file) {
@@ -107,6 +107,7 @@ class FolderRecording : public Recording {
               to_string(calibration.colour.distortion),
               units_per_m,
               unit_source,
+              found_.frames.front().depth.coding == ImageCoding::kExr,
               {},
               {},
               {}};
@@ -120,12 +121,11 @@ class FolderRecording : public Recording {
 
   Image<float> load_depth(int index) const override {
     const StoredImage& stored = frame_at(index).depth;
-    Image<std::uint16_t> raw = stored.coding == ImageCoding::kFile
-                                   ? decode_u16(read_stored_image(stored), stored.file)
-                                   : decode_raw_depth(read_stored_image(stored), stored, found_.raw_depth_size);
-    check_size(raw, depth_size_, stored.file);
-    depth_lens_.apply(raw);
-    return in_metres(raw, static_cast<float>(facts_.depth_units_per_m));
+    const std::string bytes = read_stored_image(stored);
+    if (stored.coding == ImageCoding::kExr) return depth_of(decode_exr(bytes, stored.file), stored.file);
+    return depth_of(
+        stored.coding == ImageCoding::kFile ? decode_u16(bytes, stored.file) : decode_raw_depth(bytes, stored, found_.raw_depth_size),
+        stored.file);
   }
 
   RgbdFrame load(int index) const override {
@@ -152,6 +152,17 @@ class FolderRecording : public Recording {
   }
 
  private:
+  /// Depth in metres, as a pinhole would have seen it.
+  template <class T>
+  Image<float> depth_of(Image<T> raw, const fs::path& file) const {
+    check_size(raw, depth_size_, file);
+    depth_lens_.apply(raw);
+    Image<float> depth(raw.width(), raw.height());
+    const auto units_per_m = static_cast<float>(facts_.depth_units_per_m);
+    std::transform(raw.data(), raw.data() + raw.size(), depth.data(), [&](T value) { return in_metres(value, units_per_m); });
+    return depth;
+  }
+
   Image<Rgb8> load_colour(int index) const {
     const StoredImage& stored = frame_at(index).colour;
     Image<Rgb8> colour = stored.coding == ImageCoding::kFile ? decode_rgb(read_stored_image(stored), stored.file)
@@ -204,7 +215,7 @@ class FolderRecording : public Recording {
 std::string describe(const RecordingFacts& facts, const ImageSize& depth_size) {
   std::string text = facts.folder + ": " + facts.layout + ", " + std::to_string(facts.times_s.size()) + " frames of " +
                      to_string(depth_size) + "; intrinsics " + to_string(facts.calibration.depth) + " (" + facts.calibration_source +
-                     "); depth in 1/" + numbers_text(&facts.depth_units_per_m, 1) + " m (" + facts.depth_unit_source + ")";
+                     "); depth in " + depth_unit_text(facts) + " (" + facts.depth_unit_source + ")";
   if (facts.depth_distortion != "none") text += "; distortion " + facts.depth_distortion + " is corrected";
   if (facts.pose_convention != "as-is") text += "; poses read as " + facts.pose_convention;
   return text;
@@ -225,6 +236,14 @@ void warn_of_missing_poses(const RecordingFacts& facts, bool tells_poses, const 
 }
 
 }  // namespace
+
+}  // namespace foothold::io
+
+std::string foothold::depth_unit_text(const RecordingFacts& facts) {
+  return facts.depth_units_per_m == 1.0 ? "metres" : "1/" + io::numbers_text(&facts.depth_units_per_m, 1) + " m";
+}
+
+namespace foothold::io {
 
 std::shared_ptr<Recording> make_recording(FoundRecording found, const Context& context, const SequenceOptions& options) {
   const ImageSize depth_size = size_of(found.frames.front().depth, found.raw_depth_size);

@@ -21,6 +21,7 @@ enum class ImageCoding {
   kFile,     ///< PNG, JPEG, PGM
   kRaw,      ///< little-endian 16-bit numbers, or bytes of RGB
   kZlibRaw,  ///< the same, deflated
+  kExr,      ///< depth as floating-point numbers, in a file of its own
 };
 
 /// Where the bytes of an image are.

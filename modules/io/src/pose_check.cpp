@@ -27,21 +27,22 @@ Count count_agreeing(const FramePair& pair, const Intrinsics& k, const Reading& 
   const Eigen::Matrix3d b_from_world = world_from_b.rotation.transpose();
   const Eigen::Matrix3d rotation = b_from_world * world_from_a.rotation;
   const Eigen::Vector3d translation = b_from_world * (world_from_a.translation_m - world_from_b.translation_m) / reading.depth_factor;
-  const int width = pair.depth_a.width();
-  const int height = pair.depth_a.height();
+  const Image<float>& depth_a = *pair.depth_a;
+  const int width = depth_a.width();
+  const int height = depth_a.height();
   const int step = std::max(1, std::max(width, height) / kPointsPerSide);
   Count count;
   for (int v = step / 2; v < height; v += step) {
     for (int u = step / 2; u < width; u += step) {
-      if (!is_valid_depth(pair.depth_a(u, v))) continue;
-      const Eigen::Vector3f point_a = k.back_project(static_cast<float>(u), static_cast<float>(v), pair.depth_a(u, v));
+      if (!is_valid_depth(depth_a(u, v))) continue;
+      const Eigen::Vector3f point_a = k.back_project(static_cast<float>(u), static_cast<float>(v), depth_a(u, v));
       const Eigen::Vector3d point = rotation * point_a.cast<double>() + translation;
       const double seen_u = static_cast<double>(k.fx) * point.x() / point.z() + static_cast<double>(k.cx);
       const double seen_v = static_cast<double>(k.fy) * point.y() / point.z() + static_cast<double>(k.cy);
       ++count.num_points;
       const bool inside = point.z() > 0.0 && seen_u > -0.5 && seen_v > -0.5 && seen_u < width - 0.5 && seen_v < height - 0.5;
       if (!inside) continue;
-      const float depth_b = pair.depth_b(static_cast<int>(std::lround(seen_u)), static_cast<int>(std::lround(seen_v)));
+      const float depth_b = (*pair.depth_b)(static_cast<int>(std::lround(seen_u)), static_cast<int>(std::lround(seen_v)));
       if (!is_valid_depth(depth_b)) {
         --count.num_points;  // a hole says nothing
         continue;

@@ -3,6 +3,7 @@
 /// Projects frames into one another to see whether their poses fit their depth.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "foothold/base/camera.h"
@@ -13,10 +14,12 @@ namespace foothold::io {
 
 /// Two frames that see some of the same, with their poses in Foothold's convention as the recording is read.
 struct FramePair {
-  Image<float> depth_a;
-  Image<float> depth_b;
+  std::shared_ptr<const Image<float>> depth_a;
+  std::shared_ptr<const Image<float>> depth_b;
   RecordedPose world_from_a;
   RecordedPose world_from_b;
+  int frame_a = 0;
+  int frame_b = 0;
 };
 
 /// What else might be meant by poses or depth.

@@ -6,10 +6,12 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "depth_statistics.h"
 #include "foothold/base/error.h"
 #include "image_header.h"
+#include "near_miss.h"
 #include "pose_check.h"
 #include "text_file.h"
 
@@ -26,6 +28,8 @@ constexpr int kMinPairFrames = 3;
 constexpr int kMaxPairFrames = 60;
 /// Right poses of real recordings agree for most of the points: other readings are not even tried.
 constexpr double kGoodAgreement = 0.9;
+/// Nothing can fit far better than this.
+constexpr double kPerfectAgreement = 0.97;
 /// Fewer points that should be seen in the other frame say little.
 constexpr double kLeastSeen = 0.3;
 /// Other readings are worth a word only if they agree so well. Of units, one that is a third off still agrees for two thirds.
@@ -47,7 +51,7 @@ constexpr double kLeastValidFraction = 0.05;
 /// Depth in longer steps [m] tells nothing about poses.
 constexpr double kCoarseStep_m = 0.05;
 
-bool is_coarse(const RecordingFacts& facts) { return 1.0 / facts.depth_units_per_m > kCoarseStep_m; }
+bool is_coarse(const RecordingFacts& facts) { return !facts.depth_is_continuous && 1.0 / facts.depth_units_per_m > kCoarseStep_m; }
 
 std::string percent(double fraction) { return std::to_string(std::lround(100.0 * fraction)) + " %"; }
 
@@ -58,12 +62,12 @@ std::string metres(double distance_m) {
 }
 
 /// The depth of a frame; empty if it cannot be read, which is noted.
-Image<float> try_depth(const Recording& recording, int index, RecordingCheck& check) {
+std::shared_ptr<const Image<float>> try_depth(const Recording& recording, int index, RecordingCheck& check) {
   try {
-    return recording.load_depth(index);
+    return std::make_shared<Image<float>>(recording.load_depth(index));
   } catch (const FileError& error) {
     if (check.num_unreadable++ == 0) check.first_error = error.what();
-    return {};
+    return std::make_shared<Image<float>>();
   }
 }
 
@@ -102,13 +106,13 @@ Pairs collect_pairs(const Recording& recording, double metres_per_unit, io::Dept
     const int anchor = static_cast<int>(static_cast<std::size_t>(i) * poses.size() / kNumAnchors);
     const bool has_pose = poses[static_cast<std::size_t>(anchor)].has_value();
     const int partner = has_pose ? partner_of(anchor, poses, metres_per_unit) : -1;
-    FramePair pair;
+    FramePair pair{nullptr, nullptr, {}, {}, anchor, partner};
     pair.depth_a = try_depth(recording, anchor, check);
-    statistics.add(pair.depth_a);
+    statistics.add(*pair.depth_a);
     if (partner < 0) continue;
     pair.depth_b = try_depth(recording, partner, check);
-    statistics.add(pair.depth_b);
-    if (pair.depth_a.empty() || pair.depth_b.empty()) continue;
+    statistics.add(*pair.depth_b);
+    if (pair.depth_a->empty() || pair.depth_b->empty()) continue;
     pair.world_from_a = in_own_frame(*poses[static_cast<std::size_t>(anchor)], recording.origin_m());
     pair.world_from_b = in_own_frame(*poses[static_cast<std::size_t>(partner)], recording.origin_m());
     path_m += (pair.world_from_b.translation_m - pair.world_from_a.translation_m).norm();
@@ -143,6 +147,17 @@ io::Agreement agreement_from_afar(const Recording& recording, const io::Reading&
   return io::pose_agreement(pairs.frames, recording.facts().calibration.depth, reading);
 }
 
+void check_near_misses(const Recording& recording, const Pairs& pairs, RecordingCheck& check) {
+  std::vector<std::optional<io::RecordedPose>> poses;
+  for (const auto& pose : recording.facts().world_from_camera) {
+    poses.push_back(pose.has_value() ? std::optional(in_own_frame(*pose, recording.origin_m())) : std::nullopt);
+  }
+  const auto miss = io::find_near_miss(pairs.frames, recording.facts().calibration.depth, poses);
+  if (!miss.has_value()) return;
+  check.better_otherwise = describe(*miss, recording.facts().calibration.depth);
+  check.better_agreement = miss->agreement.fraction;
+}
+
 void check_poses(const Recording& recording, const Pairs& pairs, RecordingCheck& check) {
   constexpr double kTie = 0.002;  // the likelier reading wins
   check.num_pose_pairs = static_cast<int>(pairs.frames.size());
@@ -154,6 +169,7 @@ void check_poses(const Recording& recording, const Pairs& pairs, RecordingCheck&
   if (as_read.fraction >= kGoodAgreement && as_read.seen >= kLeastSeen) {
     const auto score = [&](double depth_factor) { return io::pose_agreement(pairs.frames, camera, {{}, depth_factor}).score; };
     check.poses_fit = as_read.score > std::max(score(0.5), score(2.0)) + kLeastGain;
+    if (as_read.fraction < kPerfectAgreement) check_near_misses(recording, pairs, check);
     return;
   }
   if (is_coarse(facts)) return;
@@ -168,7 +184,7 @@ void check_poses(const Recording& recording, const Pairs& pairs, RecordingCheck&
   const double least = best.depth_factor != 1.0 ? kLeastOfUnit : kLeastOfConvention;
   const bool by_far = best_agreement.fraction >= least && 1.0 - best_agreement.fraction < kByFar * (1.0 - check.pose_agreement) &&
                       best_agreement.score > as_read.score + kLeastGain;
-  if (!by_far) return;
+  if (!by_far) return check_near_misses(recording, pairs, check);
   if (best.convention.metres_per_unit != 1.0) best_agreement = agreement_from_afar(recording, best);
   if (best_agreement.fraction < least) return;
   check.better_agreement = best_agreement.fraction;
@@ -178,8 +194,8 @@ void check_poses(const Recording& recording, const Pairs& pairs, RecordingCheck&
 
 std::string depth_text(const RecordingFacts& facts, const RecordingCheck& check) {
   return "median depth " + metres(check.median_depth_m) + ", " + percent(check.within_fraction) + " of it between " +
-         metres(kLeastMedianDepth_m) + " and " + metres(kMostMedianDepth_m) + ", if it counts 1/" +
-         io::numbers_text(&facts.depth_units_per_m, 1) + " m (" + facts.depth_unit_source + ")";
+         metres(kLeastMedianDepth_m) + " and " + metres(kMostMedianDepth_m) + ", if it counts " + depth_unit_text(facts) + " (" +
+         facts.depth_unit_source + ")";
 }
 
 /// A unit that people use, under which the median would be that of a room; 0 if there is none.
@@ -237,6 +253,8 @@ void warn_of_poses(const RecordingFacts& facts, RecordingCheck& check) {
       facts.folder + ": only " + percent(check.pose_agreement) + " of the depth agrees between frames, by their poses";
   if (!check.better_convention.empty() && facts.pose_convention == "as-is") {
     check.warnings.push_back(subject + "; " + percent(check.better_agreement) + " would with --pose-convention " + check.better_convention);
+  } else if (!check.better_otherwise.empty()) {
+    check.warnings.push_back(subject + "; " + percent(check.better_agreement) + " would " + check.better_otherwise);
   } else if (check.pose_agreement < kDoubtfulAgreement) {
     const std::string convention = facts.pose_convention == "as-is" ? "" : " (read as " + facts.pose_convention + ")";
     check.warnings.push_back(subject + convention + "; convention of poses, intrinsics or unit of depth may be wrong");

@@ -11,6 +11,7 @@
 #include "foothold/base/contract.h"
 #include "foothold/io/recording.h"
 #include "foothold/synthetic/synthetic_sequence.h"
+#include "record3d_sequence.h"
 #include "sens_file.h"
 #include "text_file.h"
 
@@ -114,6 +115,7 @@ std::shared_ptr<Recording> open_recording(const std::string& source, const Conte
     if (!fs::exists(folder)) throw FileError(source + ": no such folder; expected a recording's folder or synthetic:NAME");
     if (fs::is_regular_file(folder) && folder.extension() == ".sens")
       return io::make_recording(io::read_sens_file(folder, context), context, options);
+    if (const std::string archive = io::describe_record3d_archive(folder); !archive.empty()) throw FileError(archive);
     if (!fs::is_directory(folder)) throw_file_error(folder, "a file", "a recording's folder");
     for (const io::Layout& layout : io::layouts()) {
       if (layout.matches(folder)) return io::make_recording(layout.read(folder, context), context, options);

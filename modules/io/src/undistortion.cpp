@@ -34,24 +34,19 @@ Undistortion::~Undistortion() = default;
 Undistortion::Undistortion(Undistortion&&) noexcept = default;
 Undistortion& Undistortion::operator=(Undistortion&&) noexcept = default;
 
-void Undistortion::apply(Image<Rgb8>& image) const {
+template <class T>
+void Undistortion::resample(Image<T>& image, int type, int interpolation) const {
   if (maps_ == nullptr) return;
   FOOTHOLD_EXPECTS(image.width() == maps_->pixel.cols && image.height() == maps_->pixel.rows);
-  Image<Rgb8> result(image.width(), image.height());
-  const cv::Mat source(image.height(), image.width(), CV_8UC3, image.data());
-  cv::Mat target(image.height(), image.width(), CV_8UC3, result.data());
-  cv::remap(source, target, maps_->pixel, maps_->fraction, cv::INTER_LINEAR, cv::BORDER_CONSTANT);
+  Image<T> result(image.width(), image.height());
+  const cv::Mat source(image.height(), image.width(), type, image.data());
+  cv::Mat target(image.height(), image.width(), type, result.data());
+  cv::remap(source, target, maps_->pixel, maps_->fraction, interpolation, cv::BORDER_CONSTANT);
   image = std::move(result);
 }
 
-void Undistortion::apply(Image<std::uint16_t>& image) const {
-  if (maps_ == nullptr) return;
-  FOOTHOLD_EXPECTS(image.width() == maps_->pixel.cols && image.height() == maps_->pixel.rows);
-  Image<std::uint16_t> result(image.width(), image.height());
-  const cv::Mat source(image.height(), image.width(), CV_16UC1, image.data());
-  cv::Mat target(image.height(), image.width(), CV_16UC1, result.data());
-  cv::remap(source, target, maps_->pixel, maps_->fraction, cv::INTER_NEAREST, cv::BORDER_CONSTANT);
-  image = std::move(result);
-}
+void Undistortion::apply(Image<Rgb8>& image) const { resample(image, CV_8UC3, cv::INTER_LINEAR); }
+void Undistortion::apply(Image<std::uint16_t>& image) const { resample(image, CV_16UC1, cv::INTER_NEAREST); }
+void Undistortion::apply(Image<float>& image) const { resample(image, CV_32FC1, cv::INTER_NEAREST); }
 
 }  // namespace foothold::io

@@ -25,9 +25,13 @@ class Undistortion {
   /// @pre The image has the camera's size.
   void apply(Image<Rgb8>& image) const;
   void apply(Image<std::uint16_t>& image) const;
+  void apply(Image<float>& image) const;
 
  private:
   struct Maps;
+  template <class T>
+  void resample(Image<T>& image, int type, int interpolation) const;
+
   std::unique_ptr<Maps> maps_;
 };
 

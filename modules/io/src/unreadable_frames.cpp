@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Foothold authors
 #include "unreadable_frames.h"
 
+#include "exr_image.h"
 #include "image_decoding.h"
 
 namespace foothold::io {
@@ -10,6 +11,7 @@ namespace {
 /// Images within larger files are left to the reader of those.
 void check_shape(const StoredImage& image) {
   if (image.coding == ImageCoding::kFile && image.num_bytes == 0) check_image_file(image.file);
+  if (image.coding == ImageCoding::kExr) check_exr_file(image.file);
 }
 
 }  // namespace

@@ -29,10 +29,14 @@ struct RecordingFacts {
   std::string colour_distortion;
   double depth_units_per_m = 0.0;
   std::string depth_unit_source;
+  bool depth_is_continuous = false;                   ///< it has fractions of units, too
   std::string pose_convention;                        ///< as SequenceOptions::pose_convention; "as-is" for Foothold's own
   std::vector<double> times_s;                        ///< of each frame
   std::vector<std::optional<SE3>> world_from_camera;  ///< of each frame, relative to Sequence::origin_m()
 };
+
+/// The unit of depth: "1/5000 m", "metres".
+std::string depth_unit_text(const RecordingFacts& facts);
 
 /// A recording on disk.
 class Recording : public Sequence {

@@ -35,6 +35,8 @@ struct RecordingCheck {
   std::string better_convention;
   /// The unit of depth under which more agree by far; 0 if there is none.
   double better_depth_units_per_m = 0.0;
+  /// What else makes more agree by far, in words: another focal length, another scale of depth, poses of another time.
+  std::string better_otherwise;
   double better_agreement = 0.0;
 
   /// What a user should be told, a sentence or two each.
