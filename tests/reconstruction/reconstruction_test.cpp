@@ -9,6 +9,7 @@
 #include "foothold/synthetic/synthetic_sequence.h"
 #include "support/catch.h"
 #include "support/error_message.h"
+#include "support/logged_warnings.h"
 #include "support/random_seed.h"
 #include "support/temp_folder.h"
 
@@ -25,19 +26,6 @@ Context two_threads() {
   options.num_threads = 2;
   return Context(options);
 }
-
-/// Keeps what a context is warned of.
-struct LoggedWarnings {
-  std::vector<std::string> warnings;
-  Context context() {
-    ContextOptions options;
-    options.num_threads = 2;
-    options.log = [this](LogLevel level, const std::string& message) {
-      if (level == LogLevel::kWarning) warnings.push_back(message);
-    };
-    return Context(options);
-  }
-};
 
 ReconstructionSettings small_settings() {
   ReconstructionSettings settings;
@@ -279,6 +267,30 @@ TEST_CASE("Reconstruction: warns once if most of the depth is out of range, and 
   CHECK_THAT(log.warnings[0], Contains("% of the depth") && Contains("fusion.volume.max_depth_m = 1,"));
   Reconstruction in_range(log.context(), small_settings(), small_forest());
   CHECK(in_range.process(kitchen()[0].view()).out_of_range_fraction < 0.5F);
+  CHECK(log.warnings.size() == 1);
+}
+
+TEST_CASE("Reconstruction: warns once if the camera nears the end of the map, and names the setting") {
+  LoggedWarnings log;
+  const ReconstructionSettings settings = small_settings();
+  const float reach_m = settings.fusion.volume.reach_m();
+  CHECK(reach_m == Approx(1048574.0 * 8.0 * 0.02));
+  Reconstruction reconstruction(log.context(), settings, small_forest());
+  SE3 near_end;
+  near_end.translation.x() = -(reach_m - settings.fusion.volume.max_depth_m - 1.0F);
+  reconstruction.start_at(near_end);
+  reconstruction.process(kitchen()[0].view());
+  CHECK(log.warnings.empty());
+  SE3 beyond;
+  beyond.translation.z() = reach_m + 10.0F;
+  reconstruction.reset();
+  reconstruction.start_at(beyond);
+  reconstruction.process(kitchen()[0].view());
+  CHECK(reconstruction.pipeline().volume().num_blocks() == 0);
+  REQUIRE(log.warnings.size() == 1);
+  CHECK_THAT(log.warnings[0],
+             Contains("the camera is 167782 m from") && Contains("fusion.volume.voxel_size_m = 0.02") && Contains("ends at 167772 m"));
+  reconstruction.process(kitchen()[1].view());
   CHECK(log.warnings.size() == 1);
 }
 

@@ -14,6 +14,7 @@
 #include "relocalisation/relief.h"
 #include "support/catch.h"
 #include "support/error_message.h"
+#include "support/logged_warnings.h"
 #include "support/random_seed.h"
 
 namespace foothold {
@@ -79,6 +80,23 @@ TEST_CASE("KeyframeRelocaliser: keeps a frame only if no keyframe resembles it")
   Fixture greedy(settings);
   for (int i = 0; i < 5; ++i) greedy.relocaliser.train(greedy.frame(relief), Fixture::pose(static_cast<float>(i)));
   REQUIRE(greedy.relocaliser.num_keyframes() == 3);
+}
+
+TEST_CASE("KeyframeRelocaliser: warns once that there is no room for a keyframe, and names the setting") {
+  Random random = test::test_random();
+  test::LoggedWarnings log;
+  KeyframeRelocaliserSettings settings;
+  settings.max_keyframes = 1;
+  Fixture fixture;
+  KeyframeRelocaliser relocaliser(log.context(), settings);
+  const Image<float> relief = random_relief(random, 640, 480);
+  relocaliser.train(fixture.frame(relief), SE3{});
+  relocaliser.train(fixture.frame(relief), SE3{});
+  REQUIRE(log.warnings.empty());  // the same again would be no keyframe
+  for (int i = 0; i < 2; ++i) relocaliser.train(fixture.frame(random_relief(random, 640, 480)), SE3{});
+  REQUIRE(log.warnings.size() == 1);
+  REQUIRE(test::contains(log.warnings[0], "max_keyframes = 1 are there"));
+  REQUIRE(relocaliser.num_keyframes() == 1);
 }
 
 TEST_CASE("KeyframeRelocaliser: orders further candidates by similarity") {

@@ -3,6 +3,7 @@
 /// What a frame teaches: sample_examples() and colour_examples().
 #include "examples/training_examples.h"
 
+#include "examples/surface_pieces.h"
 #include "foothold/base/se3.h"
 #include "support/catch.h"
 
@@ -67,7 +68,7 @@ TEST_CASE("sample_examples: one pixel of each grid cell, with its point in the p
   }
 }
 
-TEST_CASE("sample_examples: points further than 32 m from the place's origin are dropped") {
+TEST_CASE("sample_examples: points further than 32 m from the place's origin are dropped, and marked") {
   const Context context = Context(ContextOptions{});
   TrainingExamples examples(MemoryKind::kHost);
   const auto num_with_depth = [&](float depth_m, float z_m) {
@@ -76,7 +77,13 @@ TEST_CASE("sample_examples: points further than 32 m from the place's origin are
     place_from_camera.translation.z() = z_m;
     sample_examples(context, flat.frame, eight_pixel_grid(), place_from_camera, 42, examples);
     int count = 0;
-    for (const SampledPixel& pixel : examples.pixels) count += pixel.depth_m > 0.0F ? 1 : 0;
+    for (std::size_t i = 0; i < examples.pixels.size(); ++i) {
+      const bool has_depth = examples.pixels[i].depth_m > 0.0F;
+      const std::uint64_t surface = surface_of(examples.surface_keys[i]);
+      REQUIRE((has_depth ? surface < kNoSurface : surface == kBeyondReach));
+      REQUIRE(example_of(examples.surface_keys[i]) == i);
+      count += has_depth ? 1 : 0;
+    }
     return count;
   };
   REQUIRE(num_with_depth(2.0F, 0.0F) == 48);
@@ -84,6 +91,9 @@ TEST_CASE("sample_examples: points further than 32 m from the place's origin are
   REQUIRE(num_with_depth(20.0F, 13.0F) == 0);   // 33 m
   REQUIRE(num_with_depth(20.0F, -60.0F) == 0);
   REQUIRE(num_with_depth(1e3F, 0.0F) == 0);
+  const FlatFrame blank(0.0F);
+  sample_examples(context, blank.frame, eight_pixel_grid(), SE3{}, 42, examples);
+  for (const std::uint64_t key : examples.surface_keys.to_host()) REQUIRE(surface_of(key) == kNoSurface);
 }
 
 }  // namespace

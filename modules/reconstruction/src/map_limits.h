@@ -15,10 +15,12 @@ class MapLimits {
   void watch(const Frame& frame, const TsdfSettings& volume, const Context& context, FusionFrameResult& result);
 
  private:
+  void watch_reach(const Frame& frame, const TsdfSettings& volume, const Context& context, const FusionFrameResult& result);
   void watch_range(const Frame& frame, const TsdfSettings& volume, const Context& context, FusionFrameResult& result);
 
   double num_measured_ = 0.0;  // pixels looked at so far
   double num_out_of_range_ = 0.0;
+  bool told_reach_ = false;
   bool told_range_ = false;
   bool told_full_ = false;
 };

@@ -12,6 +12,7 @@
 #include "foothold/base/random.h"
 #include "forest/device_forest.h"
 #include "places/place_search.h"
+#include "places/scene_limits.h"
 #include "places/scene_places.h"
 
 namespace foothold {
@@ -41,10 +42,15 @@ struct ForestRelocaliser::State {
         image(context),
         examples(context.memory()),
         places(context, forest.num_leaves(), settings),
-        search(context, settings) {}
+        search(context, settings),
+        limits(settings) {}
 
   /// @param explanation  Output: what the answer was made from; nullptr for none.
   std::vector<PoseEstimate> answer(const Frame& frame, Explanation* explanation);
+  /// How much of a frame may be learnt.
+  Detail detail(const Frame& frame);
+  /// Chooses the examples of a frame that are new to a place.
+  void sample(const Frame& frame, const SE3& world_from_camera, int examples_per_view, Place& place);
   /// @return True if the frame taught anything.
   bool learn(const Frame& frame, const SE3& world_from_camera);
   /// Spends one frame's budget of clustering on the place that learnt last. With nothing new, finds out whether anything was left to do.
@@ -58,6 +64,7 @@ struct ForestRelocaliser::State {
   TrainingExamples examples;
   ScenePlaces places;
   PlaceSearch search;
+  SceneLimits limits;
   std::uint64_t num_frames = 0;    ///< learnt
   std::size_t learning_place = 0;  ///< the one that learnt last
 };
@@ -72,17 +79,28 @@ std::vector<PoseEstimate> ForestRelocaliser::State::answer(const Frame& frame, E
   return search.find(context, {frame, image}, device_forest, places, explanation);
 }
 
+Detail ForestRelocaliser::State::detail(const Frame& frame) {
+  if (!limits.bounds_memory()) return Detail::kFull;
+  return limits.detail(context, places.count_bytes(learning_place), frame.index);  // other places are as they were
+}
+
+void ForestRelocaliser::State::sample(const Frame& frame, const SE3& world_from_camera, int examples_per_view, Place& place) {
+  const ScopedStage stage(context, "train/sample");
+  constexpr std::uint64_t kSamplingStream = 0;
+  const std::uint64_t frame_seed = derive_seed(derive_seed(settings.seed, kSamplingStream), num_frames);
+  const SE3 place_from_camera = place.place_from_camera(world_from_camera);
+  sample_examples(context, frame, settings.reservoirs, place_from_camera, frame_seed, examples);
+  const std::size_t num_offered = examples.pixels.size();
+  place.learnt.keep_new(context, place_from_camera.translation, examples_per_view, examples);
+  limits.watch_reach(context, place.learnt.num_beyond_reach(), num_offered, frame.index);
+}
+
 bool ForestRelocaliser::State::learn(const Frame& frame, const SE3& world_from_camera) {
+  const Detail allowed = detail(frame);
+  if (allowed == Detail::kNone) return false;
   learning_place = places.learning(world_from_camera.translation);
   Place& place = places[learning_place];
-  {
-    const ScopedStage stage(context, "train/sample");
-    constexpr std::uint64_t kSamplingStream = 0;
-    const std::uint64_t frame_seed = derive_seed(derive_seed(settings.seed, kSamplingStream), num_frames);
-    const SE3 place_from_camera = place.place_from_camera(world_from_camera);
-    sample_examples(context, frame, settings.reservoirs, place_from_camera, frame_seed, examples);
-    place.learnt.keep_new(context, place_from_camera.translation, settings.reservoirs.examples_per_view, examples);
-  }
+  sample(frame, world_from_camera, limits.examples_per_view(allowed), place);
   if (examples.pixels.empty()) {
     places.drop_unused(learning_place);
     return false;
@@ -163,6 +181,7 @@ void ForestRelocaliser::reset() {
   state().places.clear();
   state().num_frames = 0;
   state().learning_place = 0;
+  state().limits = SceneLimits(state().settings);
 }
 
 void ForestRelocaliser::save(std::ostream& stream) const {
@@ -196,6 +215,7 @@ void ForestRelocaliser::load(std::istream& stream) {
   s.places = std::move(places);
   s.num_frames = num_frames;
   s.learning_place = 0;
+  s.limits = SceneLimits(s.settings);
 }
 
 }  // namespace foothold

@@ -72,7 +72,7 @@ struct CollectWantedBlocks {
   FOOTHOLD_HD std::uint64_t key_of(const Eigen::Vector3f& point_world) const {
     const float scale = 1.0F / (volume.voxel_size_m * static_cast<float>(kBlockSide));
     const Eigen::Vector3f block = point_world * scale;
-    const float limit = static_cast<float>(kKeyBias - 2);  // leaves room for neighbours
+    const float limit = static_cast<float>(kReachBlocks);
     if (!(std::abs(block.x()) < limit && std::abs(block.y()) < limit && std::abs(block.z()) < limit)) return kNoKey;
     return pack_key({floor_to_int(block.x()), floor_to_int(block.y()), floor_to_int(block.z())});
   }

@@ -44,6 +44,8 @@ struct BlockCoordinates {
 
 inline constexpr int kKeyBits = 21;
 inline constexpr int kKeyBias = 1 << (kKeyBits - 1);
+/// Blocks that a map has on each side of the origin; leaves room for neighbours.
+inline constexpr int kReachBlocks = kKeyBias - 2;
 
 /// Packs coordinates in [-2^20, 2^20) into 63 bits, sorted by z, then y, then x.
 FOOTHOLD_HD inline std::uint64_t pack_key(const BlockCoordinates& block) {

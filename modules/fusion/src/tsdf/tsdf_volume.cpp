@@ -22,6 +22,8 @@ constexpr std::size_t kFirstCudaPages = 16;
 /// Poses read from text files are rigid to about this much.
 }  // namespace
 
+float TsdfSettings::reach_m() const { return static_cast<float>(kReachBlocks * kBlockSide) * voxel_size_m; }
+
 void TsdfSettings::validate() const {
   validate_settings(*this);
   if (truncation_m < 2.0F * voxel_size_m) {

@@ -55,11 +55,12 @@ void ExampleAlgorithms<Executor>::keep_new(const Context& context, const ViewTab
   const std::size_t num_examples = from.pixels.size();
   std::uint32_t* const num_kept = buffers.totals.data();
   std::uint32_t* const num_entries = num_kept + 1;
+  std::uint32_t* const num_beyond_reach = num_kept + 2;
   executor.sort(Span<std::uint64_t>(to.surface_keys), buffers.sort_buffer, kExampleBits, kExampleBits + kSurfaceBits);
   const Span<const std::uint64_t> keys(to.surface_keys);
   const Span<const std::uint32_t> kept(buffers.kept);
-  executor.for_each(num_examples,
-                    KeepNewExamples{keys, table, view_of, examples_per_view, buffers.kept.data(), buffers.counts.data(), num_entries});
+  executor.for_each(num_examples, KeepNewExamples{keys, table, view_of, examples_per_view, buffers.kept.data(), buffers.counts.data(),
+                                                  num_entries, num_beyond_reach});
   executor.exclusive_scan(kept, Span<std::uint32_t>(buffers.kept_before));
   const PackExamples pack{kept,    buffers.kept_before.data(), from.pixels.data(), from.points.data(), to.pixels.data(), to.points.data(),
                           num_kept};

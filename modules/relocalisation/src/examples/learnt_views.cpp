@@ -25,7 +25,7 @@ constexpr std::uint64_t kSmallTable = std::uint64_t{1} << 14U;  ///< slots of a 
 }  // namespace
 
 LearntViews::LearntViews(const Memory& memory)
-    : slots_(memory), totals_(memory, 2), sort_buffer_(memory), kept_(memory), counts_(memory), kept_before_(memory), unfiltered_(memory) {
+    : slots_(memory), totals_(memory, 3), sort_buffer_(memory), kept_(memory), counts_(memory), kept_before_(memory), unfiltered_(memory) {
   totals_.clear_to_zero();
 }
 
@@ -51,6 +51,7 @@ void LearntViews::set_num_slots(const Context& context, std::size_t num_slots) {
 void LearntViews::keep_new(const Context& context, const Eigen::Vector3f& camera_scene, int examples_per_view, TrainingExamples& examples) {
   const std::size_t num_examples = examples.pixels.size();
   FOOTHOLD_EXPECTS(examples.surface_keys.size() == num_examples);
+  num_beyond_reach_ = 0;
   if (num_examples == 0) return;
   make_room(context, num_examples);
   kept_.resize(num_examples);
@@ -70,6 +71,7 @@ void LearntViews::keep_new(const Context& context, const Eigen::Vector3f& camera
   });
   const std::vector<std::uint32_t> totals = totals_.to_host(context);
   num_entries_ = totals[1];
+  num_beyond_reach_ = totals[2];
   examples.pixels.resize(totals[0]);
   examples.points.resize(totals[0]);
 }
@@ -107,7 +109,7 @@ void LearntViews::load(const Context& context, CheckedReader& reader) {
   });
   context.synchronise();
   loaded.num_entries_ = entries.size();
-  loaded.totals_.assign(std::vector<std::uint32_t>{0, static_cast<std::uint32_t>(entries.size())});
+  loaded.totals_.assign(std::vector<std::uint32_t>{0, static_cast<std::uint32_t>(entries.size()), 0});
   *this = std::move(loaded);
 }
 

@@ -35,6 +35,9 @@ class LearntViews {
     unfiltered_.points.swap(points);
   }
 
+  /// Of the examples that keep_new() was last offered, those that lie beyond the place's reach.
+  std::size_t num_beyond_reach() const { return num_beyond_reach_; }
+
   std::size_t state_bytes() const { return slots_.size() * sizeof(std::uint64_t); }
 
   void save(CheckedWriter& writer) const;
@@ -47,7 +50,8 @@ class LearntViews {
 
   Array<std::uint64_t> slots_;     ///< a hash table, see learnt_views_kernels.h; a power of two, or empty
   std::uint64_t num_entries_ = 0;  ///< slots in use
-  Array<std::uint32_t> totals_;    ///< examples that the last frame kept, and slots in use
+  std::size_t num_beyond_reach_ = 0;
+  Array<std::uint32_t> totals_;  ///< examples that the last frame kept, slots in use, and its examples beyond reach
   // Scratch of keep_new().
   Array<std::uint64_t> sort_buffer_;
   Array<std::uint32_t> kept_;

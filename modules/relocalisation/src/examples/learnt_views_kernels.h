@@ -83,12 +83,14 @@ struct KeepNewExamples {
   std::uint32_t* kept;              ///< per example: 1 if it is
   std::uint32_t* counts;            ///< per sort key: what the table is to hold, 0 where nothing changes
   std::uint32_t* num_entries;       ///< of the table; grows by the views that it does not hold yet
+  std::uint32_t* num_beyond_reach;  ///< of the examples
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
     counts[i] = 0;
     const std::uint64_t surface = surface_of(keys[i]);
-    if (surface == kNoSurface) kept[example_of(keys[i])] = 0;
-    if (surface == kNoSurface || (i > 0 && surface_of(keys[i - 1]) == surface)) return;
+    if (i + 1 == keys.size()) *num_beyond_reach = count_beyond_reach();
+    if (surface >= kNoSurface) kept[example_of(keys[i])] = 0;
+    if (surface >= kNoSurface || (i > 0 && surface_of(keys[i - 1]) == surface)) return;
     std::size_t end = i + 1;
     while (end < keys.size() && surface_of(keys[end]) == surface) ++end;
     const auto offered = static_cast<std::uint32_t>(end - i);  // times a count still fits
@@ -103,6 +105,14 @@ struct KeepNewExamples {
     if (wanted == 0) return;
     counts[i] = known + wanted;
     if (known == 0) atomic_add(num_entries, 1);
+  }
+
+ private:
+  /// They are sorted behind all others.
+  FOOTHOLD_HD std::uint32_t count_beyond_reach() const {
+    std::size_t first = keys.size();
+    while (first > 0 && surface_of(keys[first - 1]) == kBeyondReach) --first;
+    return static_cast<std::uint32_t>(keys.size() - first);
   }
 };
 

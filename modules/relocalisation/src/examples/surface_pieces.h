@@ -11,9 +11,10 @@ inline constexpr int kSurfaceCellMm = 100;                                      
 inline constexpr int kCoordinateOffsetMm = 32768;                               ///< makes a place's coordinates positive
 inline constexpr std::uint32_t kCellsPerAxis = 2 * 32768 / kSurfaceCellMm + 1;  ///< of a place
 inline constexpr std::uint64_t kNoSurface = std::uint64_t{kCellsPerAxis} * kCellsPerAxis * kCellsPerAxis;
-inline constexpr int kSurfaceBits = 29;  ///< of a piece's number
-inline constexpr int kExampleBits = 24;  ///< of an example's number, below its piece of surface in a sort key
-static_assert(kNoSurface < std::uint64_t{1} << kSurfaceBits);
+inline constexpr std::uint64_t kBeyondReach = kNoSurface + 1;  ///< of what has depth, but lies where a place has no coordinates
+inline constexpr int kSurfaceBits = 29;                        ///< of a piece's number
+inline constexpr int kExampleBits = 24;                        ///< of an example's number, below its piece of surface in a sort key
+static_assert(kBeyondReach < std::uint64_t{1} << kSurfaceBits);
 
 /// The cell of a coordinate, along its axis.
 FOOTHOLD_HD inline std::uint32_t cell_of(std::int16_t mm) {

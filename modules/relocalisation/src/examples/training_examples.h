@@ -22,6 +22,9 @@ struct ReservoirPoint {
 };
 static_assert(sizeof(ReservoirPoint) == 8, "loaded as one word");
 
+/// Farthest coordinate of a place, from its origin along each axis [mm].
+inline constexpr float kReachMm = 32767.0F;
+
 /// Examples of one frame, in grid order.
 struct TrainingExamples {
   explicit TrainingExamples(const Memory& memory) : pixels(memory), points(memory), surface_keys(memory), leaves(memory) {}
@@ -31,7 +34,7 @@ struct TrainingExamples {
   Array<std::uint32_t> leaves;        ///< num_trees x num_pixels
 };
 
-/// Picks a pixel of each grid cell with its point and surface key, still without colour; depth 0 where there is none.
+/// Picks a pixel of each grid cell with its point and surface key, still without colour; depth 0 where there is none, or beyond kReachMm.
 ///
 /// @param scene_from_camera  pose in the frame whose origin is the place's.
 /// @param frame_seed         chooses the pixels when the settings ask for jitter.

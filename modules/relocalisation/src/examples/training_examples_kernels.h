@@ -40,12 +40,12 @@ struct SampleTrainingPixel {
   std::uint64_t* surface_keys;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
-    take(i);
-    surface_keys[i] = surface_key(pixels[i], points[i], i);
+    surface_keys[i] = take(i) ? surface_key(pixels[i], points[i], i) : (kBeyondReach << kExampleBits) | i;
   }
 
  private:
-  FOOTHOLD_HD void take(std::size_t i) const {
+  /// False if the pixel shows what lies beyond the place's reach.
+  FOOTHOLD_HD bool take(std::size_t i) const {
     Random random(frame_seed, i);
     const int cell_u = static_cast<int>(i) % grid_width * spacing;
     const int cell_v = static_cast<int>(i) / grid_width * spacing;
@@ -56,16 +56,16 @@ struct SampleTrainingPixel {
     const float depth_m = frame.depth(u, v);
     pixels[i] = {static_cast<std::int16_t>(u), static_cast<std::int16_t>(v), 0.0F};
     points[i] = {};
-    if (!is_valid_depth(depth_m)) return;
+    if (!is_valid_depth(depth_m)) return true;
     const Eigen::Vector3f point_scene =
         transform_point(scene_from_camera, frame.calibration.depth.back_project(static_cast<float>(u), static_cast<float>(v), depth_m));
     const float x = std::floor(point_scene.x() * 1000.0F + 0.5F);
     const float y = std::floor(point_scene.y() * 1000.0F + 0.5F);
     const float z = std::floor(point_scene.z() * 1000.0F + 0.5F);
-    constexpr float kLimit = 32767.0F;
-    if (!(std::fabs(x) <= kLimit && std::fabs(y) <= kLimit && std::fabs(z) <= kLimit)) return;
+    if (!(std::fabs(x) <= kReachMm && std::fabs(y) <= kReachMm && std::fabs(z) <= kReachMm)) return false;
     pixels[i].depth_m = depth_m;
     points[i] = {static_cast<std::int16_t>(x), static_cast<std::int16_t>(y), static_cast<std::int16_t>(z), 0};
+    return true;
   }
 };
 

@@ -61,6 +61,8 @@ struct KeyframeRelocaliser::State {
   /// Fraction of ferns in which the current frame differs from a keyframe.
   float dissimilarity(std::size_t keyframe) const;
   float confidence(float dissimilarity) const;
+  /// Warns that a frame would be a keyframe, and there is no room for it.
+  void tell_full(const Frame& frame);
 
   Context context;
   KeyframeRelocaliserSettings settings;
@@ -70,6 +72,7 @@ struct KeyframeRelocaliser::State {
   std::vector<std::uint64_t> codes;       ///< codes of the keyframes, one after another
   std::vector<SE3> world_from_keyframes;
   std::vector<std::pair<float, std::size_t>> ranking;  ///< (dissimilarity, keyframe), reused between calls
+  bool told_full = false;
 };
 
 bool KeyframeRelocaliser::State::encode(const Frame& frame) {
@@ -91,6 +94,14 @@ float KeyframeRelocaliser::State::dissimilarity(std::size_t keyframe) const {
 
 float KeyframeRelocaliser::State::confidence(float dissimilarity) const {
   return 1.0F / (1.0F + std::exp((dissimilarity - settings.confidence_midpoint) / settings.confidence_spread));
+}
+
+void KeyframeRelocaliser::State::tell_full(const Frame& frame) {
+  told_full = true;
+  context.log(LogLevel::kWarning,
+              "frame " + std::to_string(frame.index) +
+                  " would be a keyframe, but max_keyframes = " + std::to_string(settings.max_keyframes) +
+                  " are there; from here on nothing is learnt: the camera is found where it was before, and nowhere else");
 }
 
 KeyframeRelocaliser::KeyframeRelocaliser(const Context& context, const KeyframeRelocaliserSettings& settings) {
@@ -120,10 +131,12 @@ void KeyframeRelocaliser::train(const Frame& frame, const SE3& world_from_camera
     if (!s.encode(frame)) return;
   }
   const ScopedStage stage(s.context, "train/search");
-  if (num_keyframes() >= static_cast<std::size_t>(s.settings.max_keyframes)) return;
+  const bool is_full = num_keyframes() >= static_cast<std::size_t>(s.settings.max_keyframes);
+  if (is_full && s.told_full) return;
   for (std::size_t i = 0; i < num_keyframes(); ++i) {
     if (s.dissimilarity(i) < s.settings.harvest_dissimilarity) return;
   }
+  if (is_full) return s.tell_full(frame);
   s.world_from_keyframes.push_back(world_from_camera);
   try {
     s.codes.insert(s.codes.end(), s.frame_code.begin(), s.frame_code.end());
@@ -157,6 +170,7 @@ std::vector<PoseEstimate> KeyframeRelocaliser::relocalise(const Frame& frame) {
 void KeyframeRelocaliser::reset() {
   state_->codes = std::vector<std::uint64_t>();
   state_->world_from_keyframes = std::vector<SE3>();
+  state_->told_full = false;
 }
 
 std::size_t KeyframeRelocaliser::state_bytes() const {
@@ -190,6 +204,7 @@ void KeyframeRelocaliser::load(std::istream& stream) {
   reader.finish();
   state_->codes = std::move(codes);
   state_->world_from_keyframes = std::move(poses);
+  state_->told_full = false;
 }
 
 }  // namespace foothold

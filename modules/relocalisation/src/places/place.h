@@ -21,9 +21,10 @@ struct Place {
   LearntViews learnt;
   LeafReservoirs reservoirs;
   LeafModes modes;
-  Array<ReservoirPoint> latest;  ///< what the camera that was learnt last saw, on its pixel grid; (0, 0, 0) where there was no depth
-  bool is_used = false;          ///< something was learnt
-  bool is_settled = true;        ///< all that was learnt is in the modes
+  Array<ReservoirPoint> latest;   ///< what the camera that was learnt last saw, on its pixel grid; (0, 0, 0) where there was no depth
+  bool is_used = false;           ///< something was learnt
+  bool is_settled = true;         ///< all that was learnt is in the modes
+  std::size_t counted_bytes = 0;  ///< by ScenePlaces::count_bytes()
 
   std::size_t state_bytes(const Context& context) const {
     return learnt.state_bytes() + reservoirs.state_bytes(context) + modes.state_bytes(context) + latest.num_bytes();

@@ -42,6 +42,13 @@ std::size_t ScenePlaces::state_bytes() const {
   return sum;
 }
 
+std::size_t ScenePlaces::count_bytes(std::size_t place) {
+  if (place < places_.size()) places_[place].counted_bytes = places_[place].state_bytes(context_);
+  std::size_t sum = 0;
+  for (const Place& each : places_) sum += each.counted_bytes;
+  return sum;
+}
+
 void ScenePlaces::save(CheckedWriter& writer) const {
   writer.write(static_cast<std::uint64_t>(places_.size()));
   for (const Place& place : places_) {
@@ -68,6 +75,7 @@ void ScenePlaces::load(CheckedReader& reader, std::uint64_t num_frames) {
     place.latest.assign(reader.read_array<ReservoirPoint>("latest points", 0, kMostLatestPoints));
     place.is_used = true;
     place.is_settled = false;
+    place.counted_bytes = place.state_bytes(context_);
     places_.push_back(std::move(place));
   }
 }

@@ -35,6 +35,8 @@ class ScenePlaces {
   std::size_t size() const { return places_.size(); }
   Place& operator[](std::size_t i) { return places_[i]; }
   std::size_t state_bytes() const;
+  /// The same, but every place but this one counts as when it was last asked for or loaded. Cheap however many there are.
+  std::size_t count_bytes(std::size_t place);
   void clear() { places_.clear(); }
 
   void save(CheckedWriter& writer) const;

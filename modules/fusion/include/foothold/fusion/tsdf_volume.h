@@ -60,6 +60,8 @@ struct TsdfSettings {
     v(&TsdfSettings::max_blocks, "max_blocks", "Blocks of 8 x 8 x 8 voxels held at most, 3 KB each.", Range{1, 1 << 24});
   }
   DepthRange depth_range() const { return {min_depth_m, max_depth_m}; }
+  /// Largest coordinate that a map holds, along each axis [m]: blocks are numbered with 21 bits.
+  float reach_m() const;
   /// Throws InvalidSettings naming the field, its value and its range.
   void validate() const;
 };
