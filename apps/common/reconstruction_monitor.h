@@ -41,6 +41,8 @@ class ReconstructionMonitor {
   void add_drawing(double ms) { smooth("view", ms); }
   /// Shows a loaded map from above.
   void add_map(const Mesh& mesh) { map_.add_surfaces(mesh); }
+  /// How the map is rendered from now on.
+  void set_detail(ModelDetail detail) { detail_ = detail; }
   /// Forgets everything, as after FusionPipeline::reset().
   void clear();
 

@@ -78,6 +78,7 @@ struct ViewContents {
   Image<Rgb8> model;          ///< the map as seen from the camera
   std::string model_caption;  ///< such as "map from the camera" or "map from where the camera was last seen"
   bool model_is_current = true;
+  std::vector<std::string> advice;  ///< what the one who holds the camera should do, a line each: shown on the map
 
   ViewState state = ViewState::kWaiting;
   bool relocalised = false;  ///< a few moments ago: shown beside the state

@@ -92,6 +92,18 @@ void draw_picture(Canvas& canvas, const cv::Rect& area, const Image<Rgb8>& image
   draw_caption(canvas, area.tl(), caption);
 }
 
+void draw_advice(Canvas& canvas, const cv::Rect& area, const std::vector<std::string>& lines) {
+  constexpr int kLine = 28;
+  const int height = kLine * static_cast<int>(lines.size());
+  if (lines.empty()) return;
+  canvas.fill_rounded({area.x + 8, area.y + area.height - height - 16, area.width - 16, height + 8}, 4, kBackground, 0.75);
+  double y = area.y + area.height - height - 12.0 + 0.5 * kLine;
+  for (const std::string& line : lines) {
+    canvas.text({area.x + 0.5 * area.width, y}, Canvas::shortened(line, kBody, area.width - 32.0), kBody, kAmber, TextAlign::kCentre);
+    y += kLine;
+  }
+}
+
 void draw_depth(Canvas& canvas, const cv::Rect& area, const ViewContents& contents) {
   const Image<float> shown = reduced(contents.depth_m, area.size());
   const Image<Rgb8> coloured = shown.empty() ? Image<Rgb8>() : colourise_depth(shown, 0.0F, contents.max_depth_m);

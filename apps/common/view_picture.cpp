@@ -42,6 +42,7 @@ cv::Mat compose_view(const ViewContents& contents) {
   draw_depth(canvas, {kEdge, kTop + kCameraHeight + kGap, kCameraWidth, kCameraHeight}, contents);
   draw_picture(canvas, {kModelX, kTop, kModelWidth, kModelHeight}, contents.model, contents.model_caption,
                contents.model_is_current ? 1.0 : kStaleBrightness);
+  draw_advice(canvas, {kModelX, kTop, kModelWidth, kModelHeight}, contents.advice);
   draw_map(canvas, {kMapX, kTop, kRight - kMapX, kModelHeight}, contents.map);
   draw_timings(canvas, {kModelX, kLowerY, kTimingsWidth, kBottom - kLowerY}, contents);
   const int history_height = contents.warnings.empty() ? kBottom - kLowerY : kShortHistoryHeight;

@@ -35,7 +35,7 @@ std::string camera_name(const OpenNIDeviceInfo& device) { return device.vendor +
 }  // namespace
 
 LiveRun::LiveRun(const LiveOptions& options, const LiveSettings& settings)
-    : options_(options), keys_(scripted_keys(options.keys)), context_(apps::make_context(options.device)) {
+    : options_(options), keys_(scripted_keys(options.keys)), context_(apps::make_context(options.device)), guide_(options.fast) {
   check_options(options);
   if (!options.record_only) {
     reconstruction_ =
@@ -45,10 +45,11 @@ LiveRun::LiveRun(const LiveOptions& options, const LiveSettings& settings)
   if (!options.load_scene.empty()) load_scene(options.load_scene);
   std::string missing = options.headless ? std::string() : apps::describe_missing_display();
   if (!missing.empty()) throw DeviceError("cannot open a window: " + missing + ". Use --headless, with --view-dir DIR to see something");
+  view_ = std::make_unique<LiveView>(!options.headless, options.view_folder, options.view_every);
+  if (view_->window_is_due()) draw();
   source_ = std::make_unique<OpenNISource>(settings.camera, camera_calibration(options), apps::log_to_stderr());
   status_ = source_->status();
   if (!options.record_folder.empty()) recording_ = std::make_unique<RecordingThread>(options.record_folder);
-  view_ = std::make_unique<LiveView>(!options.headless, options.view_folder, options.view_every);
   if (options.record_only) reader_ = std::make_unique<RecordingReader>(*source_, *recording_, options.num_frames);
 }
 
@@ -112,6 +113,16 @@ void LiveRun::take(RgbdFrame& frame) {
   event_ = false;
   const std::string news = log_.add(frame.timestamp_s, result);
   if (!news.empty()) say(news);
+  guide_.add(status_.num_pairs, status_.num_skipped, result);
+  if (guide_.is_short_of_time() && !is_hurried_) hurry();
+  if (guide_.start_has_failed()) reset("lost before there was a map to find it by: a new scene begins");
+}
+
+/// Time is short: the view costs less from now on.
+void LiveRun::hurry() {
+  is_hurried_ = true;
+  monitor_->set_detail(apps::ModelDetail::kCoarse);
+  apps::log_warning(guide_.advice().back());
 }
 
 void LiveRun::check_recording() {
@@ -148,7 +159,7 @@ void LiveRun::obey(int key) {
   }
   if (reconstruction_ == nullptr) return;
   try {
-    if (key == 'r') reset();
+    if (key == 'r') reset("forgotten; a new scene begins");
     if (key == 'l') {
       reconstruction_->force_loss();
       event_ = true;
@@ -169,11 +180,16 @@ void LiveRun::obey(int key) {
   }
 }
 
-void LiveRun::reset() {
+void LiveRun::reset(const std::string& notice) {
   reconstruction_->reset();
+  begin_world(false);
+  say(notice);
+}
+
+void LiveRun::begin_world(bool is_loaded) {
   monitor_->clear();
   log_.begin_world();
-  say("forgotten; a new scene begins");
+  guide_.begin_world(is_loaded);
 }
 
 std::vector<SettingText> LiveRun::provenance() const {
@@ -199,9 +215,8 @@ void LiveRun::load_scene(const std::string& path) {
     throw FileError(error.what() + (". To go on with it, give" + remedy));
   }
   scene_path_ = loaded_scene_ = path;
-  monitor_->clear();
+  begin_world(true);
   monitor_->add_map(extract_mesh(reconstruction_->pipeline().volume()));
-  log_.begin_world();
   if (reconstruction_->pipeline().state() == RecoveryState::kLost) log_.begin_lost();
   say("going on with the scene of " + path + ": looking for the camera in it");
 }
@@ -234,6 +249,7 @@ apps::ViewContents LiveRun::contents() {
   if (reconstruction_ == nullptr) contents.state = apps::ViewState::kRecording;
   if (paused_) contents.state = apps::ViewState::kPaused;
   if (status_.state != OpenNIState::kStreaming) contents.state = apps::ViewState::kWaiting;
+  contents.advice = guide_.advice();
   contents.notice = notice_;
   contents.warnings = apps::warnings();
   contents.counters = counters();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "common/guide.h"
 #include "common/reconstruction_monitor.h"
 #include "foothold/openni/openni_source.h"
 #include "foothold/reconstruction/reconstruction.h"
@@ -23,7 +24,8 @@ namespace foothold::live {
 /// Reads the camera, reconstructs its newest frame, draws, heeds keys, and saves everything in the end, however the end comes.
 class LiveRun {
  public:
-  /// Loads the scene to go on with, opens window and camera. @throws Error with what to do if anything is not as it must be.
+  /// Loads the scene to go on with, opens the window and then the camera, whose frames are not to wait for it. @throws Error with what to
+  /// do if anything is not as it must be.
   LiveRun(const LiveOptions& options, const LiveSettings& settings);
 
   /// Goes on until the user, a limit or a failure ends it. @return The process's exit code.
@@ -32,11 +34,13 @@ class LiveRun {
  private:
   void loop();
   void take(RgbdFrame& frame);
+  void hurry();
   void check_recording();
   void follow_camera();
   void press_scripted_keys();
   void obey(int key);
-  void reset();
+  void reset(const std::string& notice);
+  void begin_world(bool is_loaded);
   void save_scene(const std::string& path);
   void load_scene(const std::string& path);
   void save_mesh(const std::string& path);
@@ -64,6 +68,8 @@ class LiveRun {
   std::unique_ptr<RecordingThread> recording_;
   std::unique_ptr<RecordingReader> reader_;  // only if frames are only recorded
   RunLog log_;
+  apps::Guide guide_;
+  bool is_hurried_ = false;  // frames are skipped: nothing is drawn finely any more
 
   RgbdFrame frame_;       // the newest
   RgbdFrame next_frame_;  // being read; its memory is reused

@@ -14,6 +14,10 @@
 namespace foothold::live {
 namespace {
 
+constexpr const char* kMode = "640x480@30";  ///< what all cameras offer
+constexpr const char* kFastMode = "320x240@30";
+constexpr float kFastVoxelM = 0.02F;
+
 /// Reads "640x480@30" or "640x480". @throws InvalidSettings
 void assign_mode(const std::string& mode, OpenNISettings& settings) {
   int end = 0;
@@ -54,7 +58,9 @@ void LiveSettings::validate() const {
 void add_live_options(apps::CommandLine& app, LiveOptions& options) {
   app.add_flag("--list-devices", options.list_devices, "List the cameras and their modes, and end");
   app.add_option("--camera", options.camera, "The camera: an index or a URI of --list-devices, or an .oni file; otherwise the first");
-  app.add_option("--mode", options.mode, "Size and rate of depth and colour, as WIDTHxHEIGHT@FPS").show_default();
+  app.add_option("--mode", options.mode,
+                 std::string("Size and rate of depth and colour, as WIDTHxHEIGHT@FPS; otherwise ") + kMode + ", with --fast " + kFastMode);
+  app.add_flag("--fast", options.fast, "For slow machines: smaller images and voxels of 2 cm, unless --mode or settings say otherwise");
   app.add_option("--colour-mode", options.colour_mode, "Size of colour, if it is another, as WIDTHxHEIGHT");
   app.add_option("--calibration", options.calibration_folder,
                  "Folder with camera-intrinsics.txt and the like (docs/sequences.md); otherwise the camera's own field of view")
@@ -87,7 +93,8 @@ void add_live_options(apps::CommandLine& app, LiveOptions& options) {
 
 LiveSettings live_settings(const LiveOptions& options) {
   LiveSettings settings;
-  assign_mode(options.mode, settings.camera);
+  assign_mode(!options.mode.empty() ? options.mode : options.fast ? kFastMode : kMode, settings.camera);
+  if (options.fast) settings.fusion.volume.voxel_size_m = kFastVoxelM;
   if (!options.colour_mode.empty()) assign_colour_mode(options.colour_mode, settings.camera);
   settings.camera.device = options.camera;
   apps::override_settings(options.settings_file, options.settings, "path=value, such as camera.lock_exposure=true", settings);

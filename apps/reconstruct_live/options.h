@@ -39,7 +39,8 @@ struct ScriptedKey {
 struct LiveOptions {
   bool list_devices = false;
   std::string camera;
-  std::string mode = "640x480@30";
+  std::string mode;  ///< empty for the default
+  bool fast = false;
   std::string colour_mode;  ///< empty for the size of --mode
   std::string calibration_folder;
   std::string settings_file;

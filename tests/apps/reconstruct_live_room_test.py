@@ -142,6 +142,15 @@ class KeyTest(RoomTest):
         self.assertIn(self.summary()["final_state"], ["tracking", "settling"])
         self.assertEqual(self.summary()["frames"]["relocalised"], 1)
 
+    def test_a_start_that_is_lost_begins_again(self):
+        self.plug_in(self.room.folder, EVENTS="jump@4=60")
+        stay = ("--set", "fusion.refiner.slide_reach_m=0")  # the room is small
+        log = self.press("t@2", frames=40, options=stay)
+        self.assertEqual(log.count("a new scene begins"), 1, log)
+        summary = self.summary()
+        self.assertEqual(summary["final_state"], "tracking")
+        self.assertGreater(summary["frames"]["with_pose"], 15)
+
     def test_a_scene_is_saved_and_gone_on_with_under_names_of_its_own(self):
         log = self.press("o@3", "s@8", "m@8", "r@10", "o@12", frames=20)
         self.assertIn("no scene to go on with", log)

@@ -101,6 +101,18 @@ class CameraTest(LiveTest):
             self.assertTrue((self.folder / "a.ply").exists())
 
 
+class SlowMachineTest(LiveTest):
+    def test_fast_means_smaller_images_and_coarser_voxels_unless_said_otherwise(self):
+        self.plug_in("pattern:320x240")
+        self.check_success("--fast", "--headless", "--frames", 3, "--save-scene", "a.scene", "--record", "take")
+        header = (self.folder / "take" / "frame-000000.depth.png").read_bytes()[16:24]
+        self.assertEqual(struct.unpack(">II", header), (320, 240))
+        self.check_refused("--fast", "--headless", "--set", "fusion.volume.voxel_size_m=0.03", "--load-scene", "a.scene", says="=0.02")
+        self.plug_in("pattern:160x120")
+        self.check_refused("--fast", "--headless", says="320x240")
+        self.check_success("--fast", *MODE, "--frames", 3)
+
+
 class RecordTest(LiveTest):
     def test_records_what_the_camera_sends(self):
         output = self.check_success(*MODE, "--record", "take", "--record-only", "--frames", 10).stdout

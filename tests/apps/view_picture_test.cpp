@@ -156,12 +156,25 @@ TEST_CASE("with_short_paths: of a long path its end remains") {
   CHECK(with_short_paths("/home/" + std::string(60, 'w') + ": x") == ".../" + std::string(60, 'w') + ": x");
 }
 
+TEST_CASE("compose_view: advice stands at the bottom of the map as the camera sees it, line by line") {
+  const cv::Rect last_line(490, 378, 360, 26);
+  const cv::Rect line_before(490, 350, 360, 26);
+  ViewContents contents = busy_contents();
+  CHECK(count(compose_view(contents), last_line, style::kAmber) == 0);
+  contents.advice = {"9 of 10 frames skipped: move slowly"};
+  CHECK(count(compose_view(contents), last_line, style::kAmber) > 50);
+  CHECK(count(compose_view(contents), line_before, style::kAmber) == 0);
+  contents.advice.emplace_back("lost: point the camera at what was mapped");
+  CHECK(count(compose_view(contents), line_before, style::kAmber) > 50);
+}
+
 TEST_CASE("compose_view: long texts are cut before they reach their neighbours") {
   ViewContents contents = busy_contents();
   const cv::Mat before = compose_view(contents);
   contents.title = std::string(500, 'W');
   contents.state_note = std::string(500, 'W');
   contents.notice = std::string(500, 'W');
+  contents.advice = {std::string(500, 'W')};
   const cv::Mat after = compose_view(contents);
   CHECK(same(before, after, kConfidence));
   CHECK(same(before, after, kCounters));
