@@ -44,7 +44,7 @@ std::vector<std::string> Guide::advice() const {
   if (num_lost_ > 0) lines.emplace_back("lost: point the camera at what was mapped");
   if (is_short_of_time()) {
     lines.push_back(std::to_string(std::lround(10.0 * skipped_share())) + " of 10 frames skipped: move slowly" +
-                    (is_fast_ ? "" : ", or start with --fast"));
+                    (is_fast_ ? "" : ", or use --fast"));
   }
   return lines;
 }

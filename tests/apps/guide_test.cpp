@@ -3,6 +3,8 @@
 /// What the one who holds the camera is told.
 #include "common/guide.h"
 
+#include "common/canvas.h"
+#include "common/view_style.h"
 #include "support/catch.h"
 
 namespace foothold::apps {
@@ -31,9 +33,16 @@ TEST_CASE("Guide: has no advice while all is well") {
 }
 
 TEST_CASE("Guide: tells how many frames are skipped, and what to do about it") {
-  CHECK(guide_after(100, 10).advice() == std::vector<std::string>{"9 of 10 frames skipped: move slowly, or start with --fast"});
+  CHECK(guide_after(100, 10).advice() == std::vector<std::string>{"9 of 10 frames skipped: move slowly, or use --fast"});
   CHECK(guide_after(100, 10, true).advice() == std::vector<std::string>{"9 of 10 frames skipped: move slowly"});
   CHECK(guide_after(2, 10).advice().empty());  // too early to tell
+}
+
+TEST_CASE("Guide: what it says fits into the picture of the map") {
+  Guide guide = guide_after(100, 10);
+  guide.add(1010, 909, frame(RecoveryState::kLost));
+  for (const std::string& line : guide.advice()) CHECK(Canvas::text_width(line, style::kBody) < 440.0);
+  CHECK(guide.advice().size() == 2);
 }
 
 TEST_CASE("Guide: forgets what was skipped long ago") {

@@ -161,7 +161,7 @@ TEST_CASE("compose_view: advice stands at the bottom of the map as the camera se
   const cv::Rect line_before(490, 350, 360, 26);
   ViewContents contents = busy_contents();
   CHECK(count(compose_view(contents), last_line, style::kAmber) == 0);
-  contents.advice = {"9 of 10 frames skipped: move slowly"};
+  contents.advice = {"9 of 10 frames skipped: move slowly, or use --fast"};
   CHECK(count(compose_view(contents), last_line, style::kAmber) > 50);
   CHECK(count(compose_view(contents), line_before, style::kAmber) == 0);
   contents.advice.emplace_back("lost: point the camera at what was mapped");
