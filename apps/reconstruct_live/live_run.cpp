@@ -259,8 +259,8 @@ apps::ViewContents LiveRun::contents() {
 }
 
 void LiveRun::draw() {
-  const double drawing_ms = view_->show(contents(), num_taken_);
-  if (monitor_ != nullptr) monitor_->add_drawing(drawing_ms);
+  view_->show(contents(), num_taken_);
+  if (monitor_ != nullptr) monitor_->add_drawing(view_->drawing_ms());
 }
 
 /// Saves one file; a failure is told, and does not keep the others from being saved.

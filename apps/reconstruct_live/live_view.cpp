@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <utility>
@@ -54,33 +55,49 @@ LiveView::LiveView(bool with_window, std::string folder, int frames_between_file
 }
 
 bool LiveView::window_is_due() const {
-  if (window_ == nullptr) return false;
-  return !since_drawn_.has_value() || since_drawn_->elapsed_ms() > std::max(kMinInterval_ms, drawing_ms_ / kDrawingShare);
+  if (window_ == nullptr || drawing_.valid()) return false;
+  return !since_shown_.has_value() || since_shown_->elapsed_ms() > std::max(kMinInterval_ms, drawing_ms_ / kDrawingShare);
 }
 
 bool LiveView::file_is_due(std::int64_t num_frames) const {
   return !folder_.empty() && num_frames != last_file_ && num_frames % frames_between_files_ == 0;
 }
 
-double LiveView::show(const apps::ViewContents& contents, std::int64_t num_frames) {
+LiveView::Drawn LiveView::drawn(const apps::ViewContents& contents) {
   const Stopwatch watch;
-  const cv::Mat picture = apps::compose_view(contents);
-  if (file_is_due(num_frames)) {
-    last_file_ = num_frames;
-    std::array<char, 32> name{};
-    std::snprintf(name.data(), name.size(), "view-%06lld.png", static_cast<long long>(num_frames));
-    write_png((std::filesystem::path(folder_) / name.data()).string(), image_of(picture));
+  cv::Mat picture = apps::compose_view(contents);
+  return {std::move(picture), watch.elapsed_ms()};
+}
+
+void LiveView::show(apps::ViewContents contents, std::int64_t num_frames) {
+  if (!file_is_due(num_frames) && since_shown_.has_value()) {
+    drawing_ = std::async(std::launch::async, [contents = std::move(contents)] { return drawn(contents); });
+    return;
   }
+  const Drawn now = drawn(contents);
+  if (file_is_due(num_frames)) write_file(now, num_frames);
+  present(now);
+}
+
+void LiveView::write_file(const Drawn& drawn, std::int64_t num_frames) {
+  last_file_ = num_frames;
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "view-%06lld.png", static_cast<long long>(num_frames));
+  write_png((std::filesystem::path(folder_) / name.data()).string(), image_of(drawn.picture));
+}
+
+void LiveView::present(const Drawn& drawn) {
+  const Stopwatch watch;
   if (window_ != nullptr) {
-    const int key = window_->show(picture);
+    const int key = window_->show(drawn.picture);
     if (key >= 0) key_ = key;
   }
-  drawing_ms_ = watch.elapsed_ms();
-  since_drawn_.emplace();
-  return drawing_ms_;
+  drawing_ms_ = drawn.ms + watch.elapsed_ms();
+  since_shown_.emplace();
 }
 
 int LiveView::take_key() {
+  if (drawing_.valid() && drawing_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) present(drawing_.get());
   if (window_ != nullptr && key_ < 0) key_ = window_->wait(1);
   return std::exchange(key_, -1);
 }
