@@ -11,7 +11,7 @@ constexpr std::int64_t kWatchedPairs = 60;  ///< two seconds of most cameras
 constexpr std::int64_t kFewestPairs = 20;   ///< from which a share can be told
 constexpr double kShortOfTime = 0.2;        ///< share of skipped frames
 constexpr std::int64_t kFewestFused = 20;   ///< frames of a map that a camera can be found by
-constexpr int kPatience = 15;               ///< lost frames after which a start has failed
+constexpr int kPatientFrames = 15;               ///< lost frames after which a start has failed
 
 }  // namespace
 
@@ -37,7 +37,7 @@ double Guide::skipped_share() const {
 
 bool Guide::is_short_of_time() const { return skipped_share() >= kShortOfTime; }
 
-bool Guide::start_has_failed() const { return !is_loaded_ && num_fused_ < kFewestFused && num_lost_ >= kPatience; }
+bool Guide::start_has_failed() const { return !is_loaded_ && num_fused_ < kFewestFused && num_lost_ >= kPatientFrames; }
 
 std::vector<std::string> Guide::advice() const {
   std::vector<std::string> lines;

@@ -15,11 +15,12 @@ extern template struct TsdfAlgorithms<CudaExecutor>;
 #endif
 
 namespace {
+
 /// Slots of the hash table of an empty map.
 constexpr int kMinLog2Slots = 12;
 /// Pages that a map on a CUDA device begins with: 25 MB.
 constexpr std::size_t kFirstCudaPages = 16;
-/// Poses read from text files are rigid to about this much.
+
 }  // namespace
 
 float TsdfSettings::reach_m() const { return static_cast<float>(kReachBlocks * kBlockSide) * voxel_size_m; }
