@@ -115,14 +115,14 @@ TEST_CASE("compose_view: relocalised poses are marked on the map and in the hist
 }
 
 TEST_CASE("compose_view: warnings have a place of their own, and leave the rest as it is") {
-  const cv::Rect warnings_area(734, 570, 530, 110);
+  const cv::Rect warnings_edge(734, 570, 4, 110);
   const cv::Rect lower_right(734, 432, 530, 248);
   ViewContents contents = busy_contents();
   const cv::Mat before = compose_view(contents);
-  CHECK(count(before, warnings_area, style::kAmber) == 0);
+  CHECK(count(before, warnings_edge, style::kAmber) == 0);
   contents.warnings = {"the map is full"};
   const cv::Mat one = compose_view(contents);
-  CHECK(count(one, warnings_area, style::kAmber) > 100);
+  CHECK(count(one, warnings_edge, style::kAmber) > 100);
   contents.warnings = std::vector<std::string>(40, std::string(900, 'W'));
   const cv::Mat many = compose_view(contents);
   for (const cv::Mat& after : {one, many}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
 /// EXR images: what a header announces is of a size that is decoded, and small ones decode or are refused.
+#include "exr_header.h"
 #include "exr_image.h"
 #include "fuzz.h"
 

@@ -5,11 +5,10 @@
 
 #include "fuzz.h"
 #include "record3d_metadata.h"
-#include "text_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace foothold;
-  const std::string text = io::plain_text(fuzz::text_of(data, size));
+  const std::string text = fuzz::text_of(data, size);
   fuzz::attempt([&] {
     const io::Record3dMetadata metadata = io::parse_record3d_metadata(text, "metadata.json");
     if (metadata.camera.has_value()) fuzz::require(is_valid(metadata.camera->intrinsics));

@@ -9,6 +9,7 @@
 #include <limits>
 #include <sstream>
 
+#include "exr_header.h"
 #include "exr_image.h"
 #include "foothold/io/image_file.h"
 #include "io_fixtures.h"
@@ -266,6 +267,29 @@ TEST_CASE("decode_exr: reads every compression without loss, and keeps what is n
     CHECK_THAT(error_of([&] { io::check_exr_file(temp / "0.exr"); }), Contains("cut short"));
     CHECK_THAT(error_of([&] { io::decode_exr(read_text(temp / "0.exr"), "0.exr"); }), Contains("0.exr"));
   }
+}
+
+TEST_CASE("decode_exr: a second header within an attribute is not understood") {
+  const TempFolder temp;
+  const Image<float> image(8, 6, 1.5F);
+  write_exr(temp / "0.exr", image, Imf::NO_COMPRESSION);
+  const std::string bytes = read_text(temp / "0.exr");
+  HandMadeExr huge;
+  huge.window[2] = huge.window[3] = 1 << 30;
+  const std::string other = huge.bytes().substr(8);  // OpenEXR reads 16 bytes of a displayWindow, and this as the next attributes
+  const auto size = static_cast<std::int32_t>(16 + other.size() - 1);
+  std::string attribute("displayWindow\0box2i\0", 20);
+  attribute += std::string(reinterpret_cast<const char*>(&size), sizeof size) + std::string(16, '\0') + other.substr(0, other.size() - 1);
+  const std::size_t header_size = io::parse_exr_header(bytes, "0.exr").num_bytes;
+  std::string hostile = bytes.substr(0, 8) + attribute + bytes.substr(8, header_size - 8);
+  for (std::size_t i = 0; i < 6; ++i) {
+    std::uint64_t place = 0;
+    std::memcpy(&place, bytes.data() + header_size + 8 * i, sizeof place);
+    place += attribute.size();
+    hostile.append(reinterpret_cast<const char*>(&place), sizeof place);
+  }
+  hostile += bytes.substr(header_size + 48);
+  CHECK(same(io::decode_exr(hostile, "0.exr"), image));
 }
 
 TEST_CASE("decode_exr: refuses tiles as OpenEXR writes them") {

@@ -10,179 +10,54 @@
 #include <OpenEXR/ImfInputFile.h>
 #endif
 
-#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <vector>
+#include <string_view>
 
-#include "image_decoding.h"
+#include "exr_header.h"
 #include "text_file.h"
 
 namespace foothold::io {
-namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kExpectedExr = "a complete EXR image";
-/// Bounds what a decoder takes: chunks have up to 32 lines of all channels.
-constexpr std::int64_t kMaxExrSide = 8192;
-constexpr std::size_t kMaxChannels = 4;
-constexpr std::size_t kMaxExrHeaderBytes = 64U << 10U;
-constexpr std::size_t kMaxExrHeadBytes = kMaxExrHeaderBytes + 8 * kMaxExrSide;  // with the places of the chunks
-
-[[noreturn]] void throw_damaged_exr(const fs::path& name) {
-  throw_file_error(name, "an EXR image cut short or with a damaged header", kExpectedExr);
-}
-
-/// Takes values off the front of a header.
-class HeaderReader {
- public:
-  HeaderReader(std::string_view bytes, const fs::path& name) : bytes_(bytes), name_(name) {}
-
-  std::size_t position() const { return at_; }
-  bool at_end_of_list() const { return at_ < bytes_.size() && bytes_[at_] == '\0'; }
-
-  std::string_view take(std::size_t count) {
-    if (count > bytes_.size() - at_) throw_damaged_exr(name_);
-    at_ += count;
-    return bytes_.substr(at_ - count, count);
-  }
-  std::int32_t take_int() {
-    std::int32_t value = 0;
-    std::memcpy(&value, take(sizeof value).data(), sizeof value);
-    return value;
-  }
-  /// A text that a zero ends.
-  std::string_view take_name() {
-    const std::size_t end = bytes_.find('\0', at_);
-    if (end == std::string_view::npos) throw_damaged_exr(name_);
-    const std::string_view text = take(end - at_);
-    take(1);
-    return text;
-  }
-
- private:
-  std::string_view bytes_;
-  const fs::path& name_;
-  std::size_t at_ = 0;
-};
-
-/// The channel that holds depth.
-std::string depth_channel(std::string_view list, const fs::path& name) {
-  std::vector<std::string> channels;
-  HeaderReader reader(list, name);
-  while (!reader.at_end_of_list()) {
-    channels.emplace_back(reader.take_name());
-    const std::int32_t type = reader.take_int();
-    reader.take_int();  // how it is perceived
-    const bool is_whole = reader.take_int() == 1 && reader.take_int() == 1;
-    const bool is_number = type == 1 || type == 2;  // 16 or 32 bits
-    if (!is_whole || !is_number) throw OtherImage(name, "an EXR channel of integers or a part of the pixels", "floating-point depth");
-  }
-  if (channels.size() == 1) return channels.front();
-  for (const char* each : {"Z", "depth", "Depth", "Y", "R"}) {
-    if (channels.size() <= kMaxChannels && std::find(channels.begin(), channels.end(), each) != channels.end()) return each;
-  }
-  throw OtherImage(name, "an EXR image of " + std::to_string(channels.size()) + " channels",
-                   "a single one, or one called Z, depth, Y or R");
-}
-
-ImageSize size_of_window(std::string_view box, const fs::path& name) {
-  HeaderReader reader(box, name);
-  std::array<std::int64_t, 4> window{};
-  for (std::int64_t& side : window) side = reader.take_int();
-  constexpr std::int64_t kFar = 1 << 20;
-  const std::int64_t width = window[2] - window[0] + 1;
-  const std::int64_t height = window[3] - window[1] + 1;
-  const bool sane = width >= 1 && height >= 1 && std::abs(window[0]) <= kFar && std::abs(window[1]) <= kFar;
-  if (!sane) throw_damaged_exr(name);
-  if (width > kMaxExrSide || height > kMaxExrSide || width * height > kMaxImagePixels) {
-    throw_file_error(name, "an EXR image of " + std::to_string(width) + "x" + std::to_string(height) + " pixels",
-                     "at most " + std::to_string(kMaxExrSide) + " a side and " + std::to_string(kMaxImagePixels) + " in all");
-  }
-  return {static_cast<int>(width), static_cast<int>(height)};
-}
-
-/// Lines that are compressed together.
-std::size_t lines_of_chunk(std::string_view compression, const fs::path& name) {
-  constexpr std::array<std::size_t, 6> kLines{1, 1, 1, 16, 32, 16};  // none, RLE, ZIPS, ZIP, PIZ, PXR24
-  if (compression.size() != 1) throw_damaged_exr(name);
-  const auto kind = static_cast<unsigned char>(compression[0]);
-  if (kind < kLines.size()) return kLines[kind];
-  throw OtherImage(name, "an EXR image of compression " + std::to_string(kind), "none, RLE, ZIP, PIZ or PXR24");
-}
-
-void check_version(HeaderReader& reader, const fs::path& name) {
-  constexpr std::string_view kMagic = "\x76\x2f\x31\x01";
-  if (reader.take(kMagic.size()) != kMagic) throw_file_error(name, "a file without the signature of EXR images", kExpectedExr);
-  constexpr std::uint32_t kVersion = 2;
-  constexpr std::uint32_t kLongNames = 0x400;
-  const auto version = static_cast<std::uint32_t>(reader.take_int());
-  if ((version & 0xffU) != kVersion || (version & ~(0xffU | kLongNames)) != 0) {
-    throw OtherImage(name, "an EXR image in tiles, of several parts, of deep pixels or of another version", "scan lines");
-  }
-}
-
-std::string first_bytes_of(const fs::path& file, std::size_t count) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes(count, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(count));
-  if (stream.bad() || stream.gcount() == 0) throw FileError(file.string() + ": cannot be read");
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
-  return bytes;
-}
-
-/// Requires that all chunks begin within the file.
-void check_chunks(const std::string& head, std::uintmax_t file_size, const fs::path& file) {
-  const ExrHeader header = parse_exr_header(head, file);
-  HeaderReader reader(head, file);
-  reader.take(header.num_bytes);
-  for (std::size_t i = 0; i < header.num_chunks; ++i) {
-    std::uint64_t place = 0;
-    std::memcpy(&place, reader.take(sizeof place).data(), sizeof place);
-    if (place < header.num_bytes || place >= file_size) throw_file_error(file, "an EXR image cut short", kExpectedExr);
-  }
-}
-
-}  // namespace
-
-ExrHeader parse_exr_header(std::string_view bytes, const fs::path& name) {
-  HeaderReader reader(bytes.substr(0, kMaxExrHeaderBytes), name);
-  check_version(reader, name);
-  ExrHeader header;
-  std::size_t lines = 0;
-  while (!reader.at_end_of_list()) {
-    const std::string_view attribute = reader.take_name();
-    reader.take_name();  // its type
-    const std::int32_t size = reader.take_int();
-    if (size < 0) throw_damaged_exr(name);
-    const std::string_view value = reader.take(static_cast<std::size_t>(size));
-    if (attribute == "channels") header.channel = depth_channel(value, name);
-    if (attribute == "dataWindow") header.size = size_of_window(value, name);
-    if (attribute == "compression") lines = lines_of_chunk(value, name);
-  }
-  if (header.channel.empty() || header.size.empty() || lines == 0) throw_damaged_exr(name);
-  header.num_bytes = reader.position() + 1;
-  header.num_chunks = (static_cast<std::size_t>(header.size.height) + lines - 1) / lines;
-  return header;
-}
-
-void check_exr_file(const fs::path& file) {
-  constexpr std::size_t kUsualHeadBytes = 8U << 10U;
-  if (!fs::is_regular_file(file)) throw FileError(file.string() + ": is no file that can be read");
-  const std::uintmax_t size = fs::file_size(file);
-  if (size == 0) throw_file_error(file, "an empty file", kExpectedExr);
-  try {
-    check_chunks(first_bytes_of(file, kUsualHeadBytes), size, file);
-  } catch (const FileError&) {
-    check_chunks(first_bytes_of(file, kMaxExrHeadBytes), size, file);
-  }
-}
 
 #ifdef FOOTHOLD_HAS_EXR
 
 namespace {
+
+void put(std::string& bytes, const void* value, std::size_t count) { bytes.append(static_cast<const char*>(value), count); }
+
+void put_attribute(std::string& bytes, std::string_view name, std::string_view type, std::string_view value) {
+  bytes.append(name).append(1, '\0').append(type).append(1, '\0');
+  const auto size = static_cast<std::int32_t>(value.size());
+  put(bytes, &size, sizeof size);
+  bytes.append(value);
+}
+
+/// The same image with a header of only what is needed, so that a decoder cannot understand it otherwise: OpenEXR passes over the sizes of
+/// attributes that it knows.
+std::string with_plain_header(const std::string& bytes, const ExrHeader& header) {
+  const auto text_of = [](const auto& value) { return std::string_view(reinterpret_cast<const char*>(&value), sizeof value); };
+  std::string plain = bytes.substr(0, 8);  // signature and version
+  put_attribute(plain, "channels", "chlist", header.channels);
+  put_attribute(plain, "compression", "compression", text_of(header.compression));
+  put_attribute(plain, "dataWindow", "box2i", text_of(header.window));
+  put_attribute(plain, "displayWindow", "box2i", text_of(header.window));
+  put_attribute(plain, "lineOrder", "lineOrder", text_of(char{0}));
+  put_attribute(plain, "pixelAspectRatio", "float", text_of(1.0F));
+  put_attribute(plain, "screenWindowCenter", "v2f", text_of(std::array<float, 2>{}));
+  put_attribute(plain, "screenWindowWidth", "float", text_of(1.0F));
+  plain += '\0';
+  const std::uint64_t size = plain.size();
+  for (std::size_t i = 0; i < header.num_chunks; ++i) {
+    std::uint64_t place = 0;
+    std::memcpy(&place, bytes.data() + header.num_bytes + i * sizeof place, sizeof place);
+    place = place - header.num_bytes + size;
+    put(plain, &place, sizeof place);
+  }
+  return plain + bytes.substr(header.num_bytes + header.num_chunks * sizeof(std::uint64_t));
+}
 
 /// Bytes in memory, as OpenEXR reads them.
 class MemoryStream : public Imf::IStream {
@@ -211,18 +86,19 @@ class MemoryStream : public Imf::IStream {
 bool reads_exr() { return true; }
 
 Image<float> decode_exr(const std::string& bytes, const fs::path& name) {
-  const ExrHeader header = parse_exr_header(bytes, name);
+  const ExrHeader header = parse_exr_head(bytes, bytes.size(), name);
   Image<float> image(header.size.width, header.size.height);
   try {
-    MemoryStream stream(bytes, name.string());
+    const std::string plain = with_plain_header(bytes, header);
+    MemoryStream stream(plain, name.string());
     Imf::InputFile file(stream, 0);  // without threads of its own
-    const Imath::Box2i window = file.header().dataWindow();
+    const Imath::Box2i window({header.window[0], header.window[1]}, {header.window[2], header.window[3]});
     Imf::FrameBuffer buffer;
     buffer.insert(header.channel, Imf::Slice::Make(Imf::FLOAT, image.data(), window));
     file.setFrameBuffer(buffer);
     file.readPixels(window.min.y, window.max.y);
   } catch (const Iex::BaseExc& error) {
-    throw_file_error(name, "an EXR image that cannot be decoded (" + std::string(error.what()) + ")", kExpectedExr);
+    throw_file_error(name, "an EXR image that cannot be decoded (" + std::string(error.what()) + ")", "a complete EXR image");
   }
   return image;
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "camera_model.h"
+#include "exr_header.h"
 #include "exr_image.h"
 #include "foothold/base/contract.h"
 #include "foothold/frames/register_colour.h"

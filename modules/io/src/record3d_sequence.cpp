@@ -88,7 +88,7 @@ FoundRecording read_record3d(const fs::path& folder, const Context& context) {
   found.frames = std::move(numbered.frames);
   for (RecordedFrame& frame : found.frames) frame.depth.coding = ImageCoding::kExr;
   const fs::path file = metadata_file(folder);
-  Record3dMetadata metadata = parse_record3d_metadata(read_text(file, kMaxListFileBytes), file);
+  Record3dMetadata metadata = parse_record3d_metadata(read_file(file, kMaxListFileBytes), file);
   drop_identities(metadata.poses, file, context);
   warn_of_variation(metadata, file, context);
   add_metadata(metadata, numbered, found);

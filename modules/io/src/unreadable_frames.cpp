@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Foothold authors
 #include "unreadable_frames.h"
 
-#include "exr_image.h"
+#include "exr_header.h"
 #include "image_decoding.h"
 
 namespace foothold::io {
