@@ -96,6 +96,21 @@ TEST_CASE("CUDA: reservoirs and modes are the CPU's, bit by bit") {
   }
 }
 
+TEST_CASE("CUDA: memory_budget_mb leaves out what it does on the CPU") {
+  ForestRelocaliserSettings settings = quick_settings();
+  settings.memory_budget_mb = 1;
+  Rig host(Device::kCpu, settings);
+  Rig device(Device::kCuda, settings);
+  settings.memory_budget_mb = 0;
+  Rig unbounded(Device::kCpu, settings);
+  for (std::size_t i = 0; i < 24; i += 3) {
+    for (Rig* rig : {&host, &device, &unbounded}) rig->train(i);
+  }
+  REQUIRE((test::saved(device.relocaliser) == test::saved(host.relocaliser)));
+  REQUIRE(host.relocaliser.state_bytes() <= 1000000);
+  REQUIRE(unbounded.relocaliser.state_bytes() > host.relocaliser.state_bytes());
+}
+
 TEST_CASE("CUDA: poses are the CPU's to a millimetre and a milliradian") {
   Rig host(Device::kCpu, quick_settings());
   Rig device(Device::kCuda, quick_settings());

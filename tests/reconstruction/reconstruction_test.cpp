@@ -280,18 +280,25 @@ TEST_CASE("Reconstruction: warns once if the camera nears the end of the map, an
   near_end.translation.x() = -(reach_m - settings.fusion.volume.max_depth_m - 1.0F);
   reconstruction.start_at(near_end);
   reconstruction.process(kitchen()[0].view());
+  CHECK(reconstruction.pipeline().volume().num_blocks() > 0);
   CHECK(log.warnings.empty());
   SE3 beyond;
   beyond.translation.z() = reach_m + 10.0F;
   reconstruction.reset();
   reconstruction.start_at(beyond);
   reconstruction.process(kitchen()[0].view());
-  CHECK(reconstruction.pipeline().volume().num_blocks() == 0);
+  CHECK(reconstruction.pipeline().volume().num_blocks() == 0);  // the camera sees nothing that the map holds
   REQUIRE(log.warnings.size() == 1);
   CHECK_THAT(log.warnings[0],
              Contains("the camera is 167782 m from") && Contains("fusion.volume.voxel_size_m = 0.02") && Contains("ends at 167772 m"));
   reconstruction.process(kitchen()[1].view());
   CHECK(log.warnings.size() == 1);
+  near_end.translation.x() = 1.5F - reach_m;  // nearer than max_depth_m
+  reconstruction.reset();
+  reconstruction.start_at(near_end);
+  CHECK(log.warnings.size() == 2);
+  reconstruction.process(kitchen()[0].view());
+  CHECK(log.warnings.size() == 2);
 }
 
 TEST_CASE("ReconstructionSettings: those of the parts are validated") {

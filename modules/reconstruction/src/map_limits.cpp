@@ -12,7 +12,7 @@ namespace foothold {
 void MapLimits::watch(const Frame& frame, const TsdfSettings& volume, const Context& context, FusionFrameResult& result) {
   const bool is_readable = frame.depth.memory == MemoryKind::kHost && !frame.depth.empty();
   if (is_readable) watch_range(frame, volume, context, result);
-  watch_reach(frame, volume, context, result);
+  if (result.world_from_camera.has_value()) watch_reach(*result.world_from_camera, volume, context);
   if (result.num_blocks_refused == 0 || told_full_) return;
   told_full_ = true;
   context.log(LogLevel::kWarning, "the map is full: it holds fusion.volume.max_blocks = " + std::to_string(volume.max_blocks) +
@@ -21,15 +21,14 @@ void MapLimits::watch(const Frame& frame, const TsdfSettings& volume, const Cont
                                       " more; what is new is left out from here on, and tracking fails there");
 }
 
-void MapLimits::watch_reach(const Frame& frame, const TsdfSettings& volume, const Context& context, const FusionFrameResult& result) {
-  if (told_reach_ || !result.world_from_camera.has_value()) return;
-  const float coordinate_m = result.world_from_camera->translation.cwiseAbs().maxCoeff();
-  if (coordinate_m + volume.max_depth_m <= volume.reach_m()) return;
+void MapLimits::watch_reach(const SE3& world_from_camera, const TsdfSettings& volume, const Context& context) {
+  const float coordinate_m = world_from_camera.translation.cwiseAbs().maxCoeff();
+  if (told_reach_ || coordinate_m + volume.max_depth_m <= volume.reach_m()) return;
   told_reach_ = true;
-  context.log(LogLevel::kWarning, "frame " + std::to_string(frame.index) + ": the camera is " + std::to_string(std::lround(coordinate_m)) +
-                                      " m from the map's origin along an axis; with " +
-                                      "fusion.volume.voxel_size_m = " + detail::to_text(volume.voxel_size_m) + " the map ends at " +
-                                      std::to_string(std::lround(volume.reach_m())) + " m, and what is beyond is left out");
+  context.log(LogLevel::kWarning,
+              "the camera is " + std::to_string(std::lround(coordinate_m)) +
+                  " m from the map's origin along an axis; with fusion.volume.voxel_size_m = " + detail::to_text(volume.voxel_size_m) +
+                  " the map ends at " + std::to_string(std::lround(volume.reach_m())) + " m, and what is beyond is left out");
 }
 
 void MapLimits::watch_range(const Frame& frame, const TsdfSettings& volume, const Context& context, FusionFrameResult& result) {

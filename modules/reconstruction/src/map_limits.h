@@ -13,9 +13,10 @@ class MapLimits {
  public:
   /// Fills in FusionFrameResult::out_of_range_fraction. @param frame  as its host has it: depth in CUDA memory is not looked at.
   void watch(const Frame& frame, const TsdfSettings& volume, const Context& context, FusionFrameResult& result);
+  /// Warns of a camera that may see beyond the map's coordinates.
+  void watch_reach(const SE3& world_from_camera, const TsdfSettings& volume, const Context& context);
 
  private:
-  void watch_reach(const Frame& frame, const TsdfSettings& volume, const Context& context, const FusionFrameResult& result);
   void watch_range(const Frame& frame, const TsdfSettings& volume, const Context& context, FusionFrameResult& result);
 
   double num_measured_ = 0.0;  // pixels looked at so far

@@ -135,7 +135,10 @@ Reconstruction& Reconstruction::operator=(Reconstruction other) noexcept {
   return *this;
 }
 
-void Reconstruction::start_at(const SE3& world_from_camera) { scene_->pipeline.start_at(world_from_camera); }
+void Reconstruction::start_at(const SE3& world_from_camera) {
+  scene_->pipeline.start_at(world_from_camera);
+  scene_->limits.watch_reach(world_from_camera, scene_->pipeline.settings().volume, context_);
+}
 
 FusionFrameResult Reconstruction::process(const Frame& frame) {
   FusionFrameResult result = scene_->pipeline.process(uploader_.upload(frame));
