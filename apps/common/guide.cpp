@@ -11,7 +11,7 @@ constexpr std::int64_t kWatchedPairs = 60;  ///< two seconds of most cameras
 constexpr std::int64_t kFewestPairs = 20;   ///< from which a share can be told
 constexpr double kShortOfTime = 0.2;        ///< share of skipped frames
 constexpr std::int64_t kFewestFused = 20;   ///< frames of a map that a camera can be found by
-constexpr int kPatientFrames = 15;               ///< lost frames after which a start has failed
+constexpr int kPatientFrames = 15;          ///< lost frames after which a start has failed
 
 }  // namespace
 

@@ -60,7 +60,7 @@ TEST_CASE("Guide: helps to find a lost camera") {
   CHECK(guide.advice().empty());
 }
 
-TEST_CASE("Guide: a start has failed if the camera is lost for long before there is a map; a map that was loaded is one") {
+TEST_CASE("Guide: a start has failed if the camera is lost for long before there is a map, and a loaded map is one") {
   const auto has_failed = [](Guide guide, int num_lost) {
     for (int i = 0; i < num_lost; ++i) guide.add(1000, 0, frame(RecoveryState::kLost));
     return guide.start_has_failed();

@@ -28,9 +28,10 @@ constexpr int kOthersOfRolledVotes = 2;  // beside a kernel for each roll but th
 
 constexpr std::uint32_t kNumExamples = 4800;  // of 640 x 480 pixels, every eighth in each direction
 
-/// What the device says of a frame's examples: how many are to be learnt, and how many entries that makes of the place's views.
+/// What the device says of a frame's examples: how many are to be learnt, how many entries that makes of the place's views, and how many
+/// lie beyond its reach.
 void new_examples(void* host, std::size_t num_bytes) {
-  constexpr std::uint32_t kCounts[2] = {kNumExamples, 0};
+  constexpr std::uint32_t kCounts[3] = {kNumExamples, 0, 0};
   if (num_bytes == sizeof(kCounts)) std::memcpy(host, kCounts, num_bytes);
 }
 

@@ -176,8 +176,10 @@ TEST_CASE("check_recording: depth along rays, focal lengths a fifth too large an
     expected = "with focal lengths of about 1";
   }
   SECTION("scale") {
-    options = with_scale(1500.0);
-    expected = "with depth about 1.5 times as large";
+    RoomFormat format;
+    format.units_per_m = 1500.0;
+    write_room_as_seven_scenes(temp.path(), format);
+    expected = "with depth about 0.67 times as large";
   }
   CHECK_THAT(warnings_of(temp.path(), options), Contains("of the depth agrees between frames") && Contains(expected));
 }
