@@ -64,15 +64,21 @@ class FeatureImage {
 /// The index nearest to i in [0, size).
 FOOTHOLD_HD inline int clamp_index(int i, int size) { return i < 0 ? 0 : (i >= size ? size - 1 : i); }
 
+/// The pixel of the image nearest to an offset [px] from pixel (u, v), clamped to the image: its index.
+FOOTHOLD_HD FOOTHOLD_INLINE int partner_of(const FeatureImageView& image, int u, int v, float offset_u, float offset_v) {
+  const int partner_u = clamp_index(u + static_cast<int>(std::floor(offset_u + 0.5F)), image.width);
+  const int partner_v = clamp_index(v + static_cast<int>(std::floor(offset_v + 0.5F)), image.height);
+  return partner_v * image.width + partner_u;
+}
+
 /// The difference of a channel between pixel (u, v) of the feature image and its partner, which is clamped to the image: [mm] for depth,
 /// [grey levels] for colour. Reference: [Cavallari2017] Eq. 1 and 2.
 ///
 /// @param px_per_offset  image.offset_scale_px_mm over the pixel's depth [mm].
 FOOTHOLD_HD inline int evaluate_feature(const FeatureImageView& image, int u, int v, float px_per_offset, const ForestFeature& feature) {
-  const int partner_u = clamp_index(u + static_cast<int>(std::floor(feature.offset_u_px_m * px_per_offset + 0.5F)), image.width);
-  const int partner_v = clamp_index(v + static_cast<int>(std::floor(feature.offset_v_px_m * px_per_offset + 0.5F)), image.height);
+  const int partner = partner_of(image, u, v, feature.offset_u_px_m * px_per_offset, feature.offset_v_px_m * px_per_offset);
   const auto channel = static_cast<int>(feature.channel);
-  return image.pixels[v * image.width + u].channels[channel] - image.pixels[partner_v * image.width + partner_u].channels[channel];
+  return image.pixels[v * image.width + u].channels[channel] - image.pixels[partner].channels[channel];
 }
 
 }  // namespace foothold
