@@ -65,7 +65,7 @@ TEST_CASE("FeatureImage: blocks hold the mean of their valid depths and of their
   Random random = test::test_random();
   const Context context;
   for (const int bytes_per_pixel : {3, 4}) {
-    for (const int downscale : {1, 2, 4, 7}) {
+    for (const int downscale : {1, 2, 4, 7, 9}) {
       const NoiseFrame noise(random, 67, 45, bytes_per_pixel);  // the last blocks are incomplete and left out
       FeatureImage image(context);
       image.compute(context, noise.frame, downscale);

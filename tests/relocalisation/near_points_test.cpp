@@ -26,7 +26,7 @@ NearPoints near_points_of(const std::vector<ReservoirPoint>& points, const Surfa
   const std::uint32_t leaf = 0;
   const AlignmentState state{scene_from_camera, 1.0F, 0};
   NearPoints found{};
-  FindNearPoints{reservoirs.view(), 1, 1, &leaf, &surface, 80.0F, &state, &found}(0);
+  FindNearPoints<1>{reservoirs.view(), 1, 1, &leaf, &surface, 1, 80.0F, &state, &found}(0);
   return found;
 }
 
@@ -44,6 +44,40 @@ TEST_CASE("FindNearPoints: finds a leaf's points within reach of the sample in t
   std::vector<ReservoirPoint> many(3 * kReservoirBlockSize, ReservoirPoint{1000, 0, 2000, 0});
   CHECK(near_points_of(many, surface, scene_from_camera).num == kNearPoints);
   CHECK(near_points_of(many, SurfaceSample{{0.0F, 0.0F, 2.0F}, {}}, scene_from_camera).num == 0);  // no normal
+}
+
+TEST_CASE("FindNearPoints: finds the same points one by one and several at once") {
+  constexpr int kNumTrees = 2;
+  constexpr std::size_t kNumSamples = 9;  // the last group of items is incomplete
+  constexpr std::size_t kNumItems = kNumSamples * kNumTrees;
+  LeafReservoirs reservoirs = reservoirs_of({{0, 0, 1000, 0}, {0, 0, 1050, 0}, {50, 0, 1400, 0}}, test::context_of(1));
+  std::vector<SurfaceSample> surfaces;
+  std::vector<std::uint32_t> leaves;
+  for (std::size_t i = 0; i < kNumSamples; ++i) {
+    surfaces.push_back({{0.0F, 0.0F, 1.0F + 0.05F * static_cast<float>(i)}, {0.0F, 0.0F, i == 3 ? 0.0F : -1.0F}});
+    leaves.push_back(i == 5 ? 1 : 0);  // beyond the last leaf
+  }
+  leaves.resize(kNumItems, 0);
+  const AlignmentState state{SE3{}, 1.0F, 0};
+  const NearPoints untouched{{7}, {7}, {7}, 7};
+  std::vector<NearPoints> single(kNumItems, untouched);
+  std::vector<NearPoints> together(kNumItems, untouched);
+  for (std::size_t i = 0; i < kNumItems; ++i) {
+    FindNearPoints<1>{
+        reservoirs.view(), kNumTrees, kNumSamples, leaves.data(), surfaces.data(), kNumItems, 80.0F, &state, single.data()}(i);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    FindNearPoints<8>{
+        reservoirs.view(), kNumTrees, kNumSamples, leaves.data(), surfaces.data(), kNumItems, 80.0F, &state, together.data()}(i);
+  }
+  for (std::size_t i = 0; i < kNumItems; ++i) {
+    INFO(i);
+    REQUIRE(single[i].num == together[i].num);
+    for (int k = 0; k < single[i].num; ++k) CHECK(single[i].z_mm[k] == together[i].z_mm[k]);
+  }
+  CHECK(single[0].num == 2);
+  CHECK(single[3 * kNumTrees].num == 0);  // without normal
+  CHECK(single[5 * kNumTrees].num == 0);  // without leaf
 }
 
 }  // namespace

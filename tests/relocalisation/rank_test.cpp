@@ -3,6 +3,7 @@
 #include "pose/rank_kernels.h"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -39,6 +40,25 @@ SceneEvidence evidence_of(const std::vector<FeaturePixel>& pixels, const std::ve
   const auto num_points = static_cast<int>(points.size());
   JudgeCandidates<CpuExecutor>{image, kCamera, points.data(), num_points, hypotheses, &evidence}(CpuTeam{}, 0);
   return evidence;
+}
+
+/// One of eight leaves remembers points.
+LeafReservoirs reservoirs_of_sparse_leaves() {
+  constexpr std::uint32_t kNumLeaves = 64;
+  const Context context;
+  LeafReservoirs reservoirs(context, static_cast<int>(kNumLeaves), ReservoirSettings{}, 1);
+  TrainingExamples examples(context.memory());
+  std::vector<ReservoirPoint> points;
+  std::vector<std::uint32_t> leaves;
+  for (std::int16_t i = 0; i < 100; ++i) {
+    points.push_back({i, static_cast<std::int16_t>(2 * i), static_cast<std::int16_t>(-i), static_cast<std::uint16_t>(i)});
+    leaves.push_back(static_cast<std::uint32_t>(i) * 8 % kNumLeaves);
+  }
+  examples.pixels.assign(Span<const SampledPixel>(std::vector<SampledPixel>(points.size(), SampledPixel{0, 0, 1.0F})));
+  examples.points.assign(Span<const ReservoirPoint>(points));
+  examples.leaves.assign(Span<const std::uint32_t>(leaves));
+  reservoirs.insert(context, examples);
+  return reservoirs;
 }
 
 TEST_CASE("JudgeCandidates: counts points seen through, at the surface, hidden and out of view") {
@@ -108,12 +128,30 @@ TEST_CASE("MakeEvidenceKey: believed candidates first, equal ones as they were, 
   REQUIRE(hypotheses == std::vector<std::uint32_t>{3, 1, 0, 5, 2, 4});
 }
 
-TEST_CASE("DrawRememberedPoint: draws what leaves hold, and nothing from empty ones") {
+TEST_CASE("DrawRememberedPoints: draws what leaves hold, and nothing from empty ones") {
   LeafReservoirs reservoirs(Context{}, 64, ReservoirSettings{}, 1);
   RememberedPoint point = remembered_grey({1.0F, 2.0F, 3.0F});
-  const DrawRememberedPoint draw{reservoirs.view(), 7, &point};
-  draw(0);
+  DrawRememberedPoints<1>{reservoirs.view(), 7, 1, &point}(0);
   REQUIRE(point.valid == 0);
+}
+
+TEST_CASE("DrawRememberedPoints: draws the same points one by one and side by side") {
+  constexpr std::size_t kNumPoints = 50;  // the last group is incomplete
+  constexpr int kTogether = 16;
+  LeafReservoirs reservoirs = reservoirs_of_sparse_leaves();
+  std::vector<RememberedPoint> single(kNumPoints);
+  for (std::size_t i = 0; i < kNumPoints; ++i) DrawRememberedPoints<1>{reservoirs.view(), 7, kNumPoints, single.data()}(i);
+  std::vector<RememberedPoint> together(kNumPoints, remembered_grey({9.0F, 9.0F, 9.0F}));
+  for (std::size_t i = 0; i * kTogether < kNumPoints; ++i)
+    DrawRememberedPoints<kTogether>{reservoirs.view(), 7, kNumPoints, together.data()}(i);
+  std::size_t num_valid = 0;
+  for (std::size_t i = 0; i < kNumPoints; ++i) {
+    INFO(i);
+    CHECK(std::memcmp(&single[i], &together[i], sizeof(RememberedPoint)) == 0);
+    num_valid += single[i].valid;
+  }
+  CHECK(num_valid > 0);
+  CHECK(num_valid < kNumPoints);
 }
 
 }  // namespace

@@ -19,11 +19,11 @@ extern template struct ClusteringAlgorithms<CudaExecutor>;
 
 namespace {
 
-/// A step through the leaves that visits each once and neighbours far apart.
+/// A step through the leaves, below their number, that visits each once and neighbours far apart.
 std::uint32_t scattering_stride(int num_leaves) {
   std::uint32_t stride = 7919;
   while (std::gcd(stride, static_cast<std::uint32_t>(num_leaves)) != 1) ++stride;
-  return stride;
+  return stride % static_cast<std::uint32_t>(num_leaves);
 }
 
 /// True unless a file made it up: its mean is one of points in whole millimetres of 16 bits, and its precision that of a Gaussian.

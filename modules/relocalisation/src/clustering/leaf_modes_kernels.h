@@ -12,19 +12,27 @@ namespace foothold {
 inline constexpr std::uint32_t kMaxPriority = 1023;
 inline constexpr int kPriorityBits = 10;
 
-/// Sort key of a leaf: those that changed most come first. Leaves are visited in a scattered order, so that ties favour no tree.
-struct MakePriorityKey {
+/// Sort keys of leaves: those that changed most come first. Leaves are visited in a scattered order, so that ties favour no tree: a few
+/// one after the other, which costs one division.
+template <int kWidth>
+struct MakePriorityKeys {
   LeafReservoirsView reservoirs;
   std::uint32_t min_points;
-  std::uint32_t stride;  ///< coprime to the number of leaves
+  std::uint32_t stride;  ///< below the number of leaves and coprime to it
   std::uint64_t* keys;
 
-  FOOTHOLD_HD void operator()(std::size_t i) const {
-    const auto leaf = static_cast<std::uint32_t>(i * stride % static_cast<std::uint64_t>(reservoirs.num_leaves));
-    std::uint32_t priority = reservoirs.num_changed[leaf];
-    if (reservoirs.num_seen[leaf] < min_points) priority = 0;
-    if (priority > kMaxPriority) priority = kMaxPriority;
-    keys[i] = (static_cast<std::uint64_t>(kMaxPriority - priority) << kLeafShift) | leaf;
+  FOOTHOLD_HD void operator()(std::size_t group) const {
+    const auto num_leaves = static_cast<std::uint32_t>(reservoirs.num_leaves);
+    const auto first = static_cast<std::uint32_t>(group) * static_cast<std::uint32_t>(kWidth);
+    const std::uint32_t end = num_leaves - first < kWidth ? num_leaves : first + kWidth;
+    auto leaf = static_cast<std::uint32_t>(static_cast<std::uint64_t>(first) * stride % num_leaves);
+    for (std::uint32_t i = first; i < end; ++i) {
+      std::uint32_t priority = reservoirs.num_changed[leaf];
+      if (reservoirs.num_seen[leaf] < min_points) priority = 0;
+      if (priority > kMaxPriority) priority = kMaxPriority;
+      keys[i] = (static_cast<std::uint64_t>(kMaxPriority - priority) << kLeafShift) | leaf;
+      leaf = leaf + stride < num_leaves ? leaf + stride : leaf + stride - num_leaves;
+    }
   }
 };
 
@@ -143,8 +151,10 @@ void ClusteringAlgorithms<Executor>::update(const Context& context, const LeafRe
   const Executor executor(context);
   const std::size_t num_slots = buffers.chosen.size();
   if (settings.touched_first) {
-    executor.for_each(static_cast<std::size_t>(reservoirs.num_leaves),
-                      MakePriorityKey{reservoirs, static_cast<std::uint32_t>(settings.min_cluster_size), stride, buffers.keys.data()});
+    constexpr int kWidth = Executor::kVectorWidth;
+    const auto min_points = static_cast<std::uint32_t>(settings.min_cluster_size);
+    executor.for_each((static_cast<std::size_t>(reservoirs.num_leaves) + kWidth - 1) / kWidth,
+                      MakePriorityKeys<kWidth>{reservoirs, min_points, stride, buffers.keys.data()});
     executor.sort(Span<std::uint64_t>(buffers.keys), buffers.sort_buffer, kLeafShift, kLeafShift + kPriorityBits);
   }
   const std::uint64_t* keys = settings.touched_first ? buffers.keys.data() : nullptr;

@@ -74,9 +74,9 @@ struct PackFeaturePixels {
         depths_mm[u] += in_millimetres(is_valid ? depth_row[u] : 0.0F);
         num_depths[u] += is_valid ? 1 : 0;
       }
-      const std::uint8_t* const colour_row =
-          colour.data + (static_cast<std::size_t>(v) * static_cast<std::size_t>(colour.width) + static_cast<std::size_t>(first_block * downscale)) *
-                            static_cast<std::size_t>(colour.bytes_per_pixel);
+      const std::uint8_t* const colour_row = colour.data + (static_cast<std::size_t>(v) * static_cast<std::size_t>(colour.width) +
+                                                            static_cast<std::size_t>(first_block * downscale)) *
+                                                               static_cast<std::size_t>(colour.bytes_per_pixel);
       for (int i = 0; i < num_bytes; ++i) bytes[i] = static_cast<std::uint16_t>(bytes[i] + colour_row[i]);
     }
     for (int w = 0, u = 0; w < num_blocks; ++w) {

@@ -24,7 +24,8 @@ struct FindLeaves {
     const int num = static_cast<int>(pixels.size() - first < static_cast<std::size_t>(kWidth) ? pixels.size() - first
                                                                                               : static_cast<std::size_t>(kWidth));
     Walks walks{};
-    for (int w = 0; w < kWidth; ++w) start(w < num ? pixels[first + static_cast<std::size_t>(w)] : SampledPixel{}, forest.roots[tree], w, walks);
+    for (int w = 0; w < kWidth; ++w)
+      start(w < num ? pixels[first + static_cast<std::size_t>(w)] : SampledPixel{}, forest.roots[tree], w, walks);
     while (step(walks)) {
     }
     for (int w = 0; w < num; ++w) {

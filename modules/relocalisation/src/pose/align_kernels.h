@@ -4,6 +4,7 @@
 /// a reconstructed model, which a relocaliser does not have. Reference: point-to-plane ICP [Chen1992]; local averages [Levin2003].
 #pragma once
 
+#include "foothold/base/exec/prefetch.h"
 #include "pose/project_kernels.h"
 #include "pose/surface_kernels.h"
 #include "reservoirs/leaf_reservoirs_kernels.h"
@@ -30,32 +31,54 @@ struct EndAlignment {
   }
 };
 
-/// Looks up the points that a leaf remembers within reach of a sample, once for all steps: the first kNearPoints of them.
-/// Item i is tree i % num_trees of sample i / num_trees.
+/// Looks up the points that leaves remember within reach of a sample, once for all steps: the first kNearPoints of each leaf.
+/// Item i is tree i % num_trees of sample i / num_trees. A few items are looked up one after the other, whose points are fetched together.
+template <int kWidth>
 struct FindNearPoints {
   LeafReservoirsView reservoirs;
   int num_trees;
   std::size_t pool_size;
   const std::uint32_t* leaves;
   const SurfaceSample* surfaces;
+  std::size_t num_items;
   float reach_mm;
   const AlignmentState* state;
   NearPoints* near;
 
-  FOOTHOLD_HD void operator()(std::size_t i) const {
-    const auto item = static_cast<std::uint32_t>(i);
-    const std::size_t sample = item / static_cast<std::uint32_t>(num_trees);
-    const std::size_t tree = item % static_cast<std::uint32_t>(num_trees);
-    const SurfaceSample& surface = surfaces[sample];
-    const std::uint32_t leaf = leaves[tree * pool_size + sample];
-    NearPoints& found = near[i];
-    found.num = 0;
-    if (!has_normal(surface) || leaf >= static_cast<std::uint32_t>(reservoirs.num_leaves)) return;
-    const SE3& pose = state->scene_from_camera;
-    find_in_leaf(leaf, (pose.rotation * point_of(surface) + pose.translation) * 1000.0F, found);
+  FOOTHOLD_HD void operator()(std::size_t group) const {
+    const auto first = static_cast<std::uint32_t>(group) * static_cast<std::uint32_t>(kWidth);
+    const auto end = first + kWidth < num_items ? first + kWidth : static_cast<std::uint32_t>(num_items);
+    if constexpr (kWidth > 1) {
+      for (std::uint32_t i = first; i < end; ++i) prefetch_leaf(leaf_of_item(i));
+    }
+    for (std::uint32_t i = first; i < end; ++i) {
+      near[i].num = 0;
+      const std::uint32_t leaf = leaf_of_item(i);
+      if (leaf >= static_cast<std::uint32_t>(reservoirs.num_leaves)) continue;
+      const SE3& pose = state->scene_from_camera;
+      const SurfaceSample& surface = surfaces[i / static_cast<std::uint32_t>(num_trees)];
+      find_in_leaf(leaf, (pose.rotation * point_of(surface) + pose.translation) * 1000.0F, near[i]);
+    }
   }
 
  private:
+  /// num_leaves for a sample without leaf or normal.
+  FOOTHOLD_HD std::uint32_t leaf_of_item(std::uint32_t i) const {
+    const std::size_t sample = i / static_cast<std::uint32_t>(num_trees);
+    const std::size_t tree = i % static_cast<std::uint32_t>(num_trees);
+    return has_normal(surfaces[sample]) ? leaves[tree * pool_size + sample] : static_cast<std::uint32_t>(reservoirs.num_leaves);
+  }
+
+  FOOTHOLD_HD void prefetch_leaf(std::uint32_t leaf) const {
+    if (leaf >= static_cast<std::uint32_t>(reservoirs.num_leaves)) return;
+    const int num_points = reservoirs.num_stored(leaf);
+    for (int first = 0; first < num_points; first += kReservoirBlockSize) {
+      const ReservoirBlock& block = reservoirs.block_of(leaf, first);
+      prefetch(&block.x_mm);
+      prefetch(&block.z_mm);
+    }
+  }
+
   FOOTHOLD_HD FOOTHOLD_INLINE void find_in_leaf(std::uint32_t leaf, const Eigen::Vector3f& p_mm, NearPoints& found) const {
     const int num_points = reservoirs.num_stored(leaf);
     for (int first = 0; first < num_points; first += kReservoirBlockSize) {
@@ -218,9 +241,12 @@ class Aligner {
   }
 
   void find_near_points(const CorrespondencePool& pool, Alignment& alignment) const {
-    executor_.for_each(alignment.surfaces.size() * static_cast<std::size_t>(num_trees_),
-                       FindNearPoints{reservoirs_, num_trees_, pool.sampled.size(), pool.leaves.data(), alignment.surfaces.data(),
-                                      1000.0F * (kFirstReachM + kLargestMotionM), alignment.state.data(), alignment.near.data()});
+    constexpr std::size_t kWidth = Executor::kVectorWidth > 1 ? 8 : 1;  // whose points a first-level cache holds
+    const std::size_t num_items = alignment.surfaces.size() * static_cast<std::size_t>(num_trees_);
+    executor_.for_each(
+        (num_items + kWidth - 1) / kWidth,
+        FindNearPoints<kWidth>{reservoirs_, num_trees_, pool.sampled.size(), pool.leaves.data(), alignment.surfaces.data(), num_items,
+                               1000.0F * (kFirstReachM + kLargestMotionM), alignment.state.data(), alignment.near.data()});
   }
 
   void approach(int step, Alignment& alignment) const {

@@ -3,6 +3,7 @@
 /// Sampling and filling the pool of pool.h, for both devices.
 #pragma once
 
+#include "foothold/base/exec/prefetch.h"
 #include "foothold/base/random.h"
 #include "pose/pool.h"
 #include "pose/pose_query.h"
@@ -58,8 +59,10 @@ struct CountModes {
   }
 };
 
-/// Packs the pixels that have modes, with their modes behind one another.
-struct GatherPixel {
+/// Packs the pixels that have modes, with their modes behind one another. A few are packed after each other, whose modes are fetched
+/// together.
+template <int kWidth>
+struct GatherPixels {
   Intrinsics intrinsics;
   FeatureImageView image;
   int downscale;
@@ -75,8 +78,29 @@ struct GatherPixel {
   PooledPixel* pixels;
   Mode* modes;
 
-  FOOTHOLD_HD void operator()(std::size_t i) const {
-    if (mode_counts[i] == 0) return;
+  FOOTHOLD_HD void operator()(std::size_t group) const {
+    const std::size_t first = group * static_cast<std::size_t>(kWidth);
+    const std::size_t end = first + kWidth < pool_size ? first + kWidth : pool_size;
+    if constexpr (kWidth > 1) {
+      for (std::size_t i = first; i < end; ++i) for_each_mode(i, [](const Mode& mode) { prefetch(&mode); });
+    }
+    for (std::size_t i = first; i < end; ++i) {
+      if (mode_counts[i] > 0) gather(i);
+    }
+  }
+
+ private:
+  template <class Visit>
+  FOOTHOLD_HD FOOTHOLD_INLINE void for_each_mode(std::size_t i, const Visit& visit) const {
+    for (int tree = 0; tree < num_trees; ++tree) {
+      const std::uint32_t leaf = leaves[static_cast<std::size_t>(tree) * pool_size + i];
+      if (leaf >= num_leaves) continue;
+      const std::uint32_t num_modes = leaf_modes.num_modes[leaf];
+      for (std::uint32_t k = 0; k < num_modes; ++k) visit(leaf_modes.modes.at(leaf, static_cast<int>(k)));
+    }
+  }
+
+  FOOTHOLD_HD void gather(std::size_t i) const {
     const SampledPixel& at = sampled[i];
     const Eigen::Vector3f point = intrinsics.back_project(at.u, at.v, at.depth_m);
     const FeaturePixel& colour =
@@ -90,12 +114,8 @@ struct GatherPixel {
     pixel.rgb[2] = static_cast<std::uint8_t>(colour.b());
     pixel.reserved = 0;
     pixels[slots[i]] = pixel;
-    std::uint32_t next = first_modes[i];
-    for (int tree = 0; tree < num_trees; ++tree) {
-      const std::uint32_t leaf = leaves[static_cast<std::size_t>(tree) * pool_size + i];
-      if (leaf >= num_leaves) continue;
-      for (std::uint32_t k = 0; k < leaf_modes.num_modes[leaf]; ++k) modes[next++] = leaf_modes.modes.at(leaf, static_cast<int>(k));
-    }
+    Mode* next = modes + first_modes[i];
+    for_each_mode(i, [&](const Mode& mode) { *next++ = mode; });
   }
 };
 
@@ -125,9 +145,12 @@ void fill_pool(const Context& context, const PoseQuery& query, const LeafModesVi
   };
   scan(pool.mode_counts, pool.first_modes);
   scan(pool.has_modes, pool.slots);
-  executor.for_each(size, GatherPixel{query.frame.calibration.depth, query.image.view(), query.image.downscale(), leaf_modes,
-                                      forest.num_trees, num_leaves, size, pool.sampled.data(), pool.leaves.data(), pool.mode_counts.data(),
-                                      pool.first_modes.data(), pool.slots.data(), pool.pixels.data(), pool.modes.data()});
+  constexpr std::size_t kWidth = Executor::kVectorWidth > 1 ? 4 : 1;  // whose modes a first-level cache holds
+  executor.for_each(
+      (size + kWidth - 1) / kWidth,
+      GatherPixels<kWidth>{query.frame.calibration.depth, query.image.view(), query.image.downscale(), leaf_modes, forest.num_trees,
+                           num_leaves, size, pool.sampled.data(), pool.leaves.data(), pool.mode_counts.data(), pool.first_modes.data(),
+                           pool.slots.data(), pool.pixels.data(), pool.modes.data()});
 }
 
 }  // namespace foothold

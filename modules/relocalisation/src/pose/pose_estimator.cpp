@@ -30,6 +30,7 @@ void PoseEstimator::make_room_for(const PlaceView& place, const ForestView& fore
 
 void PoseEstimator::prepare(const Context& context, const PoseQuery& query) {
   const ScopedStage stage(context, "relocalise/prepare");
+  buffers_.ranking.drawn_from = nullptr;
   dispatch(context, [&](auto on) { PoseAlgorithms<typename decltype(on)::Executor>::prepare(context, query, plan_, buffers_); });
 }
 

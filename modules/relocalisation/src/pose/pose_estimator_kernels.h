@@ -78,14 +78,16 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
     Aligner<Executor>(context, query, place.reservoirs, forest).run(buffers.pool, buffers.ranking, hypotheses, buffers.alignment);
     confront(executor, query, hypotheses, buffers.ranking);
   }
-  for_each_group(executor, num_candidates, [&](auto width) {
+  const std::size_t num_evaluated = num_alive<Executor>(hypotheses.view(), num_candidates);
+  std::fill(buffers.candidates.data() + num_evaluated, buffers.candidates.data() + num_candidates, PoseCandidate{});
+  for_each_group(executor, num_evaluated, [&](auto width) {
     return EvaluateCandidates<decltype(width)::value>{pool,
                                                       buffers.pool.sampled.data(),
                                                       buffers.pool.sampled.size(),
                                                       hypotheses.view(),
                                                       buffers.alignment.misfits.data(),
                                                       buffers.ranking.agreement.data(),
-                                                      num_candidates,
+                                                      num_evaluated,
                                                       plan.energy_truncation,
                                                       buffers.candidates.data()};
   });

@@ -72,7 +72,8 @@ struct Ranking {
   Array<RememberedPoint> points;
   Array<SceneEvidence> evidence;  ///< per hypothesis; of no meaning for those that have failed
   Array<TileCounts> tiles;
-  Array<SceneAgreement> agreement;  ///< of the best pose
+  Array<SceneAgreement> agreement;            ///< of the best pose
+  const std::uint32_t* drawn_from = nullptr;  ///< counts of the reservoirs that the points were drawn from; nullptr for a new query
 };
 
 }  // namespace foothold

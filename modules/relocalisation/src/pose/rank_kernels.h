@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "foothold/base/exec/prefetch.h"
 #include "foothold/base/random.h"
 #include "pose/hypothesis_kernels.h"
 #include "pose/pose_query.h"
@@ -16,27 +17,58 @@
 
 namespace foothold {
 
-/// Draws one point from a random leaf; one that is not valid if the leaves asked remember nothing.
-struct DrawRememberedPoint {
+/// Draws a few points, each from a random leaf, side by side so that their memory accesses overlap; one that is not valid if the leaves
+/// asked remember nothing.
+template <int kWidth>
+struct DrawRememberedPoints {
   LeafReservoirsView reservoirs;
   std::uint64_t seed;
+  std::size_t num_points;
   RememberedPoint* points;
 
-  FOOTHOLD_HD void operator()(std::size_t i) const {
+  FOOTHOLD_HD void operator()(std::size_t group) const {
+    const std::size_t first = group * static_cast<std::size_t>(kWidth);
+    const int num = num_points - first < static_cast<std::size_t>(kWidth) ? static_cast<int>(num_points - first) : kWidth;
+    std::uint32_t leaf[kWidth];
+    int position[kWidth];  // -1 if nothing was found
+    for (int w = 0; w < num; ++w) {
+      position[w] = draw(first + static_cast<std::size_t>(w), leaf[w]);
+      if (position[w] >= 0) prefetch(reservoirs.blocks.place_of(leaf[w], position[w] / kReservoirBlockSize));
+    }
+    if constexpr (kWidth > 1) {
+      for (int w = 0; w < num; ++w) {
+        if (position[w] >= 0) prefetch_point(leaf[w], position[w]);
+      }
+    }
+    for (int w = 0; w < num; ++w)
+      points[first + static_cast<std::size_t>(w)] = position[w] >= 0 ? remembered(leaf[w], position[w]) : RememberedPoint{};
+  }
+
+ private:
+  /// @return The position of a point in the drawn leaf; -1 if the leaves asked remember nothing.
+  FOOTHOLD_HD int draw(std::size_t i, std::uint32_t& leaf) const {
     constexpr int kTries = 8;
     Random random(seed, i);
-    RememberedPoint drawn{};
-    for (int k = 0; k < kTries && drawn.valid == 0; ++k) {
-      const std::uint32_t leaf = random.below(static_cast<std::uint32_t>(reservoirs.num_leaves));
-      const int num_points = reservoirs.num_stored(leaf);
-      if (num_points == 0) continue;
-      const ReservoirPoint point = reservoirs.point(leaf, static_cast<int>(random.below(static_cast<std::uint32_t>(num_points))));
-      drawn = {{static_cast<float>(point.x_mm) * 1e-3F, static_cast<float>(point.y_mm) * 1e-3F, static_cast<float>(point.z_mm) * 1e-3F},
-               {static_cast<std::uint8_t>(red_of(point.rgb565)), static_cast<std::uint8_t>(green_of(point.rgb565)),
-                static_cast<std::uint8_t>(blue_of(point.rgb565))},
-               1};
+    for (int k = 0; k < kTries; ++k) {
+      leaf = random.below(static_cast<std::uint32_t>(reservoirs.num_leaves));
+      const int num_stored = reservoirs.num_stored(leaf);
+      if (num_stored > 0) return static_cast<int>(random.below(static_cast<std::uint32_t>(num_stored)));
     }
-    points[i] = drawn;
+    return -1;
+  }
+
+  FOOTHOLD_HD void prefetch_point(std::uint32_t leaf, int position) const {
+    const ReservoirBlock& block = reservoirs.block_of(leaf, position);
+    prefetch(&block.x_mm);
+    prefetch(&block.z_mm);
+  }
+
+  FOOTHOLD_HD RememberedPoint remembered(std::uint32_t leaf, int position) const {
+    const ReservoirPoint point = reservoirs.point(leaf, position);
+    return {{static_cast<float>(point.x_mm) * 1e-3F, static_cast<float>(point.y_mm) * 1e-3F, static_cast<float>(point.z_mm) * 1e-3F},
+            {static_cast<std::uint8_t>(red_of(point.rgb565)), static_cast<std::uint8_t>(green_of(point.rgb565)),
+             static_cast<std::uint8_t>(blue_of(point.rgb565))},
+            1};
   }
 };
 
@@ -139,11 +171,16 @@ struct MakeEvidenceKey {
   }
 };
 
-/// Draws the points that candidates are judged by and aligned with.
+/// Draws the points that candidates are judged by and aligned with, unless they were drawn from this place for the same query.
 template <class Executor>
 void draw_remembered_points(const Executor& executor, const LeafReservoirsView& reservoirs, std::uint64_t seed, Ranking& ranking) {
   constexpr std::uint64_t kStream = ~std::uint64_t{1};
-  executor.for_each(ranking.points.size(), DrawRememberedPoint{reservoirs, derive_seed(seed, kStream), ranking.points.data()});
+  constexpr int kWidth = Executor::kVectorWidth;
+  if (ranking.drawn_from == reservoirs.num_seen) return;
+  ranking.drawn_from = reservoirs.num_seen;
+  const std::size_t num_points = ranking.points.size();
+  executor.for_each((num_points + kWidth - 1) / kWidth,
+                    DrawRememberedPoints<kWidth>{reservoirs, derive_seed(seed, kStream), num_points, ranking.points.data()});
 }
 
 /// Confronts the hypotheses in the first slots with the first kRankingPoints points.

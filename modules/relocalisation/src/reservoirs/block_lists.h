@@ -17,12 +17,16 @@ struct BlockListsView {
   int max_blocks = 0;
 
   FOOTHOLD_HD static constexpr int blocks_for(int num_elements) { return (num_elements + kBlockSize - 1) / kBlockSize; }
+  /// Where the table says which block of the pool is a list's block.
+  FOOTHOLD_HD std::int32_t* place_of(std::uint32_t list, int block) const {
+    return blocks + (list * static_cast<std::uint32_t>(max_blocks) + static_cast<std::uint32_t>(block));
+  }
   FOOTHOLD_HD T& at(std::uint32_t list, int position) const {
-    const std::int32_t block = blocks[list * static_cast<std::uint32_t>(max_blocks) + static_cast<std::uint32_t>(position / kBlockSize)];
+    const std::int32_t block = *place_of(list, position / kBlockSize);
     return pool[static_cast<std::size_t>(block) * kBlockSize + static_cast<std::size_t>(position % kBlockSize)];
   }
   FOOTHOLD_HD void own(std::uint32_t list, int block, std::uint32_t pool_block) const {
-    blocks[list * static_cast<std::uint32_t>(max_blocks) + static_cast<std::uint32_t>(block)] = static_cast<std::int32_t>(pool_block);
+    *place_of(list, block) = static_cast<std::int32_t>(pool_block);
   }
 };
 
