@@ -6,7 +6,7 @@
 #
 #   scripts/install_packages.sh [--developer]
 #
-# --developer adds clang for the fuzz targets, and clang-format-14, clang-tidy-14 and Doxygen, which checks use where present.
+# --developer adds clang for the fuzz targets, and clang-format-14, clang-tidy-14, Doxygen and Valgrind, which checks use where present.
 # Needs root or sudo only if something is missing. CUDA is optional and never installed by this script.
 set -euo pipefail
 
@@ -18,7 +18,7 @@ packages=(
 )
 case "${1:-}" in
   "") ;;
-  --developer) packages+=(clang clang-format-14 clang-tidy-14 doxygen) ;;
+  --developer) packages+=(clang clang-format-14 clang-tidy-14 doxygen valgrind) ;;
   *) echo "usage: $0 [--developer]; got '$1'" >&2; exit 2 ;;
 esac
 

@@ -38,7 +38,7 @@ const Values kTuned = {
     {"clustering.leaves_per_frame", "1024"},
     {"clustering.point_budget", "16000"},
     {"pose.pool_size", "4000"},
-    {"pose.num_hypotheses", "512"},
+    {"pose.num_hypotheses", "256"},
     {"pose.num_candidates", "16"},
     {"pose.as_published", "false"},
     {"acceptance_threshold", "0.75"},

@@ -66,7 +66,7 @@ struct ClusteringSettings {
 /// How camera poses are searched for. Reference: [Cavallari2017] Sec. 2.2.3.
 struct PoseEstimatorSettings {
   int pool_size = 4000;       ///< (T); the paper evaluates every pixel
-  int num_hypotheses = 512;   ///< (P) 1024, (T) 512
+  int num_hypotheses = 256;   ///< (P) 1024, (T) 256
   int num_candidates = 16;    ///< (P) the supplement's last 16
   bool as_published = false;  ///< (P) true
 
