@@ -9,16 +9,13 @@
 #include "foothold/base/error.h"
 #include "foothold/evaluation/train_test.h"
 #include "support/catch.h"
+#include "support/random_motion.h"
 #include "support/random_seed.h"
 
 namespace foothold {
 namespace {
 
-SE3 random_pose(Random& random) {
-  Tangent6 tangent;
-  for (int i = 0; i < 6; ++i) tangent[i] = random.uniform(-0.4F, 0.4F);
-  return se3_exp(tangent);
-}
+SE3 random_pose(Random& random) { return test::random_motion(random, 0.4F, 0.4F); }
 
 /// The definition, bin by bin.
 std::size_t naive_bin(const SE3& tested, const std::vector<SE3>& trained) {

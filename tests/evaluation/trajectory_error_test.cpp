@@ -7,6 +7,7 @@
 
 #include "foothold/base/error.h"
 #include "support/catch.h"
+#include "support/random_motion.h"
 #include "support/random_seed.h"
 
 namespace foothold {
@@ -15,11 +16,8 @@ namespace {
 /// Single-precision poses of a few metres.
 constexpr double kTrajectoryTolerance = 2e-5;
 
-SE3 random_pose(Random& random, float scale) {
-  Tangent6 tangent;
-  for (int i = 0; i < 6; ++i) tangent[i] = random.uniform(-scale, scale);
-  return se3_exp(tangent);
-}
+/// With `scale` in radians and metres.
+SE3 random_pose(Random& random, float scale) { return test::random_motion(random, scale, scale); }
 
 std::vector<SE3> random_trajectory(Random& random, int num_poses) {
   std::vector<SE3> poses = {random_pose(random, 1.0F)};

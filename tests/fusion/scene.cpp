@@ -88,13 +88,6 @@ TsdfVolume fused_arc(const Context& context, const Scene& scene, int num_frames,
   return volume;
 }
 
-SE3 random_motion(Random& random, float rotation_rad, float translation_m) {
-  Tangent6 tangent;
-  for (int i = 0; i < 3; ++i) tangent[i] = random.uniform(-rotation_rad, rotation_rad);
-  for (int i = 3; i < 6; ++i) tangent[i] = random.uniform(-translation_m, translation_m);
-  return se3_exp(tangent);
-}
-
 RenderCamera camera_of(const RgbdFrame& frame) {
   return {frame.calibration.depth, frame.depth.width(), frame.depth.height(), *frame.world_from_camera};
 }

@@ -7,9 +7,9 @@
 #include <Eigen/Geometry>
 
 #include "foothold/api/frame.h"
-#include "foothold/base/random.h"
 #include "foothold/fusion/raycaster.h"
 #include "foothold/fusion/tsdf_volume.h"
+#include "support/random_motion.h"
 
 namespace foothold::test {
 
@@ -40,9 +40,6 @@ SE3 pose_on_arc(float t);
 
 /// A volume into which `num_frames` frames along the arc were fused.
 TsdfVolume fused_arc(const Context& context, const Scene& scene, int num_frames, const TsdfSettings& settings = {});
-
-/// A random small motion: each component of rotation [rad] and translation [m] within +-scale.
-SE3 random_motion(Random& random, float rotation_rad, float translation_m);
 
 /// The camera that took a frame.
 RenderCamera camera_of(const RgbdFrame& frame);

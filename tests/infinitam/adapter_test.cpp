@@ -8,6 +8,7 @@
 #include "foothold/base/error.h"
 #include "foothold/frames/register_colour.h"
 #include "support/catch.h"
+#include "support/random_motion.h"
 #include "support/random_seed.h"
 
 namespace foothold::infinitam {
@@ -87,11 +88,7 @@ class FakeRelocaliser : public Relocaliser {
   int num_updates = 0;
 };
 
-SE3 random_transform(Random& random) {
-  Tangent6 tangent;
-  for (int i = 0; i < 6; ++i) tangent[i] = random.uniform(-1.5F, 1.5F);
-  return se3_exp(tangent);
-}
+SE3 random_transform(Random& random) { return test::random_motion(random, 1.5F, 1.5F); }
 
 bool are_close(const SE3& a, const SE3& b) {
   return (a.rotation - b.rotation).norm() < kTolerance && (a.translation - b.translation).norm() < kTolerance;

@@ -4,6 +4,7 @@
 
 #include "io_fixtures.h"
 #include "support/catch.h"
+#include "support/random_motion.h"
 #include "support/random_seed.h"
 
 namespace foothold {
@@ -12,11 +13,7 @@ namespace {
 using namespace test;
 using Catch::Matchers::Contains;
 
-SE3 random_pose(Random& random) {
-  Tangent6 tangent;
-  for (int i = 0; i < 6; ++i) tangent(i) = random.uniform(-2.0F, 2.0F);
-  return se3_exp(tangent);
-}
+SE3 random_pose(Random& random) { return random_motion(random, 2.0F, 2.0F); }
 
 constexpr const char* kIdentity = " 0 0 0 0 0 0 1\n";
 

@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 
 #include "support/catch.h"
+#include "support/random_motion.h"
 #include "support/random_seed.h"
 
 namespace foothold {
@@ -18,11 +19,7 @@ Eigen::Vector3f random_point(Random& random) {
   return {random.uniform(-3.0F, 3.0F), random.uniform(-3.0F, 3.0F), random.uniform(-3.0F, 3.0F)};
 }
 
-SE3 random_pose(Random& random) {
-  Tangent6 tangent;
-  for (int k = 0; k < 6; ++k) tangent[k] = random.uniform(-1.8F, 1.8F);
-  return se3_exp(tangent);
-}
+SE3 random_pose(Random& random) { return test::random_motion(random, 1.8F, 1.8F); }
 
 /// Height of a triangle over its first edge and that edge's length, the smaller [m].
 float thickness(const Eigen::Vector3f* p) {

@@ -40,6 +40,16 @@ struct Fixture {
     return result;
   }
 
+  /// Learns random reliefs, relief i from pose(i).
+  std::vector<Image<float>> train_reliefs(Random& random, int count) {
+    std::vector<Image<float>> reliefs;
+    for (int i = 0; i < count; ++i) {
+      reliefs.push_back(random_relief(random, 640, 480));
+      relocaliser.train(frame(reliefs.back()), pose(static_cast<float>(i)));
+    }
+    return reliefs;
+  }
+
   Image<Rgb8> colour;
   KeyframeRelocaliser relocaliser;
 };
@@ -47,11 +57,7 @@ struct Fixture {
 TEST_CASE("KeyframeRelocaliser: proposes the pose of the most similar keyframe") {
   Random random = test::test_random();
   Fixture fixture;
-  std::vector<Image<float>> reliefs;
-  for (int i = 0; i < 8; ++i) {
-    reliefs.push_back(random_relief(random, 640, 480));
-    fixture.relocaliser.train(fixture.frame(reliefs.back()), Fixture::pose(static_cast<float>(i)));
-  }
+  const std::vector<Image<float>> reliefs = fixture.train_reliefs(random, 8);
   REQUIRE(fixture.relocaliser.num_keyframes() == 8);
   for (int i = 0; i < 8; ++i) {
     Image<float> noisy = reliefs[static_cast<std::size_t>(i)];
@@ -160,11 +166,7 @@ TEST_CASE("KeyframeRelocaliser: a copy goes its own way") {
 TEST_CASE("KeyframeRelocaliser: a saved scene reads back alike") {
   Random random = test::test_random();
   Fixture fixture;
-  std::vector<Image<float>> reliefs;
-  for (int i = 0; i < 5; ++i) {
-    reliefs.push_back(random_relief(random, 640, 480));
-    fixture.relocaliser.train(fixture.frame(reliefs.back()), Fixture::pose(static_cast<float>(i)));
-  }
+  const std::vector<Image<float>> reliefs = fixture.train_reliefs(random, 5);
   std::stringstream stream;
   fixture.relocaliser.save(stream);
   Fixture restored;

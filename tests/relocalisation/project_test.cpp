@@ -10,6 +10,7 @@
 #include "pose/rejoin_kernels.h"
 #include "relocalisation/averaged_camera.h"
 #include "support/catch.h"
+#include "support/random_motion.h"
 #include "support/random_seed.h"
 
 namespace foothold {
@@ -51,13 +52,6 @@ std::vector<RememberedPoint> points_of_corner(Random& random, int num_points, co
   return points;
 }
 
-SE3 random_pose(Random& random, float rotation_rad, float translation_m) {
-  Tangent6 twist;
-  for (int k = 0; k < 3; ++k) twist[k] = random.uniform(-rotation_rad, rotation_rad);
-  for (int k = 3; k < 6; ++k) twist[k] = random.uniform(-translation_m, translation_m);
-  return se3_exp(twist);
-}
-
 AlignmentState align(const std::vector<RememberedPoint>& points, const SE3& start, int num_steps) {
   const std::vector<FeaturePixel> pixels = corner();
   const SurfaceEstimator estimator{{pixels.data(), kWidth, kHeight, 1.0F}, kCamera, 2};
@@ -69,14 +63,14 @@ AlignmentState align(const std::vector<RememberedPoint>& points, const SE3& star
 TEST_CASE("AlignByProjection: a pose centimetres off comes back, whatever the scene's frame, and outliers do not matter") {
   Random random = test::test_random();
   for (int trial = 0; trial < 5; ++trial) {
-    const SE3 truth = random_pose(random, 2.0F, 3.0F);
+    const SE3 truth = random_motion(random, 2.0F, 3.0F);
     std::vector<RememberedPoint> points = points_of_corner(random, 2000, truth);
     for (int i = 0; i < 400; ++i) {  // half a metre in front of the surface
       const auto u = static_cast<int>(random.below(kWidth));
       const auto v = static_cast<int>(random.below(kHeight));
       points.push_back(remembered(truth * kCamera.back_project(static_cast<float>(u), static_cast<float>(v), corner_depth_m(u, v) * 0.7F)));
     }
-    const AlignmentState state = align(points, truth * random_pose(random, 0.01F, 0.02F), 10);
+    const AlignmentState state = align(points, truth * random_motion(random, 0.01F, 0.02F), 10);
     REQUIRE(translation_distance_m(state.scene_from_camera, truth) < 0.002F);
     REQUIRE(rotation_distance_rad(state.scene_from_camera, truth) < 0.002F);
   }
@@ -84,7 +78,7 @@ TEST_CASE("AlignByProjection: a pose centimetres off comes back, whatever the sc
 
 TEST_CASE("AlignByProjection: too few points in view leave the pose as it is") {
   Random random = test::test_random();
-  const SE3 start = random_pose(random, 0.01F, 0.02F);
+  const SE3 start = random_motion(random, 0.01F, 0.02F);
   for (const int num_points : {0, 50}) {
     const AlignmentState state = align(points_of_corner(random, num_points, SE3{}), start, 3);
     REQUIRE(state.ended == 0);  // the leaves' own points may do better
@@ -97,15 +91,15 @@ TEST_CASE("AlignByProjection: points that are not valid, behind the camera or on
   std::vector<RememberedPoint> points = points_of_corner(random, 500, SE3{});
   for (RememberedPoint& point : points) point.valid = 0;
   for (int i = 0; i < 500; ++i) points.push_back(remembered({random.uniform(-1.0F, 1.0F), 0.0F, -2.0F}));
-  const SE3 start = random_pose(random, 0.01F, 0.02F);
+  const SE3 start = random_motion(random, 0.01F, 0.02F);
   REQUIRE(translation_distance_m(align(points, start, 1).scene_from_camera, start) == 0.0F);
 }
 
 TEST_CASE("Rejoin: a pose is drawn to the points of the latest camera, unless few of them are in view or none had depth") {
   Random random = test::test_random();
   const std::vector<FeaturePixel> pixels = corner();
-  const SE3 truth = random_pose(random, 0.5F, 1.0F);
-  const SE3 start = truth * random_pose(random, 0.004F, 0.01F);
+  const SE3 truth = random_motion(random, 0.5F, 1.0F);
+  const SE3 start = truth * random_motion(random, 0.004F, 0.01F);
   std::vector<ReservoirPoint> in_view;
   for (const RememberedPoint& point : points_of_corner(random, 2000, truth)) {
     const auto mm = [&](int k) { return static_cast<std::int16_t>(std::lround(1000.0F * point.point_scene[k])); };

@@ -30,6 +30,18 @@ struct Model {
   SurfaceMap map;
 };
 
+/// A frame, tracked against a map of nothing but itself, from its true pose.
+TrackingResult tracked_on_itself(const Context& context, const Scene& scene, const SE3& pose) {
+  const RgbdFrame frame = test::render(scene, pose);
+  TsdfVolume volume(context, {});
+  volume.integrate(frame.view(), pose);
+  SurfaceMap map;
+  Raycaster(context).render(volume, test::camera_of(frame), map);
+  IcpTracker tracker(context, kSmallImage);
+  tracker.set_frame(frame.view());
+  return tracker.track(map, pose);
+}
+
 TEST_CASE("IcpTracker: recovers known motions against a rendered map") {
   const Scene scene;
   const Context context = make_context(1);
@@ -150,19 +162,13 @@ TEST_CASE("IcpTracker: a plane alone is ill-posed in the measures, and moves not
   Scene plane;
   plane.sphere_centre_world = {0.0, 0.0, -100.0};
   const Context context = make_context(1);
-  TsdfVolume volume(context, {});
   const SE3 pose = test::look_at({0.0F, 0.0F, 0.9F}, {0.0F, 0.0F, 1.5F});  // 60 cm before the far wall: nothing else in view
-  const RgbdFrame frame = test::render(plane, pose);
-  volume.integrate(frame.view(), pose);
-  SurfaceMap map;
-  Raycaster(context).render(volume, test::camera_of(frame), map);
-  IcpTracker tracker(context, kSmallImage);
-  tracker.set_frame(frame.view());
-  const TrackingResult on_plane = tracker.track(map, pose);
+  const TrackingResult on_plane = tracked_on_itself(context, plane, pose);
   REQUIRE(translation_distance_m(on_plane.world_from_camera, pose) < 0.02F);
 
   const Model model(context, Scene{}, 0.5F);
   const RgbdFrame full = test::render(Scene{}, model.map.camera.world_from_camera);
+  IcpTracker tracker(context, kSmallImage);
   tracker.set_frame(full.view());
   const TrackingResult in_room = tracker.track(model.map, model.map.camera.world_from_camera);
   REQUIRE((!on_plane.measures.well_posed || on_plane.measures.log_det_total < in_room.measures.log_det_total - 10.0F));
@@ -172,16 +178,7 @@ TEST_CASE("IcpTracker: between a wall and a floor, the loosest translation is al
   Scene corridor;
   corridor.half_size_m.x() = 6.0;  // its ends are out of sight
   corridor.sphere_centre_world = {0.0, 0.0, -100.0};
-  const Context context = make_context(1);
-  TsdfVolume volume(context, {});
-  const SE3 pose = test::look_at({0.0F, 0.0F, 0.0F}, {0.3F, 0.9F, 1.5F});
-  const RgbdFrame frame = test::render(corridor, pose);
-  volume.integrate(frame.view(), pose);
-  SurfaceMap map;
-  Raycaster(context).render(volume, test::camera_of(frame), map);
-  IcpTracker tracker(context, kSmallImage);
-  tracker.set_frame(frame.view());
-  const TrackingResult result = tracker.track(map, pose);
+  const TrackingResult result = tracked_on_itself(make_context(1), corridor, test::look_at({0.0F, 0.0F, 0.0F}, {0.3F, 0.9F, 1.5F}));
   REQUIRE(result.measures.well_posed);  // voxels are not quite flat
   REQUIRE(result.loosest_world.norm() == Approx(1.0F));
   REQUIRE(std::abs(result.loosest_world.x()) > 0.99F);
