@@ -87,7 +87,7 @@ class RenderTest(app_support.AppTest):
         """Whatever the limit: a word and the code for it, or success."""
         codes = set()
         for limit_mb in range(120, 700, 20):
-            room = ROOM.replace("width=80&height=60", "width=1600&height=1200")
+            room = "synthetic:kitchen?frames=1&width=1600&height=1200"
             command = ["bash", "-c", f'ulimit -v {1024 * limit_mb}; exec "$@"', "bash", self.app, "--sequence", room, "--out", f"{limit_mb}.raw", "--raw"]
             result = subprocess.run(command, cwd=self.folder, capture_output=True, text=True, check=False)
             if "error while loading shared libraries" in result.stderr:

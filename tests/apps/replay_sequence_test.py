@@ -160,14 +160,16 @@ class KidnapTest(ReplayTest):
 
 
 class LimitsTest(ReplayTest):
+    FEW_FRAMES = ROOM + "@0:10"
+
     def test_a_map_that_is_full_is_warned_of_and_counted(self):
-        result = self.replay("--method", "none", "--set", "fusion.volume.max_blocks=300")
+        result = self.replay("--method", "none", "--set", "fusion.volume.max_blocks=300", sequence=self.FEW_FRAMES)
         self.assertEqual(len(result["warnings"]), 1)
         self.assertIn("fusion.volume.max_blocks = 300", result["warnings"][0])
         self.assertGreater(result["undisturbed"]["blocks_refused"], 0)
 
     def test_depth_out_of_range_is_warned_of_and_counted(self):
-        result = self.replay("--method", "none", "--set", "fusion.volume.max_depth_m=1")
+        result = self.replay("--method", "none", "--set", "fusion.volume.max_depth_m=1", sequence=self.FEW_FRAMES)
         self.assertEqual(len(result["warnings"]), 1)
         self.assertIn("fusion.volume.max_depth_m = 1,", result["warnings"][0])
         self.assertGreater(result["undisturbed"]["depth_out_of_range"], 0.5)
