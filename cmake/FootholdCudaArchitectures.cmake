@@ -4,8 +4,8 @@
 # runs. docs/cuda.md has what finished code for all of them would cost.
 set(FOOTHOLD_CUDA_ARCHITECTURES_OF_ANY_GPU 75)
 
-# foothold_cuda_architectures(<VARIABLE>): those of the GPUs in this machine, each once; without one, those above.
-function(foothold_cuda_architectures variable)
+# foothold_find_gpus(<VARIABLE>): the architectures of the GPUs in this machine that CUDA 13 has code for, each once.
+function(foothold_find_gpus variable)
   set(architectures)
   execute_process(COMMAND nvidia-smi --query-gpu=compute_cap --format=csv,noheader OUTPUT_VARIABLE capabilities ERROR_QUIET RESULT_VARIABLE status)
   if(status EQUAL 0)
@@ -19,9 +19,6 @@ function(foothold_cuda_architectures variable)
       endif()
     endforeach()
     list(REMOVE_DUPLICATES architectures)
-  endif()
-  if(NOT architectures)
-    set(architectures ${FOOTHOLD_CUDA_ARCHITECTURES_OF_ANY_GPU})
   endif()
   set(${variable} ${architectures} PARENT_SCOPE)
 endfunction()

@@ -33,7 +33,7 @@ check() { # STEP COMMAND...
 
 scripts/install_packages.sh --developer || exit 1
 check format python3 tests/checks/format.py .
-check tests scripts/test.sh ci                     # with faults, corpora of the fuzz targets, and the short soak
+check tests .ci/run                                # with CUDA where nvcc is, faults, corpora of the fuzz targets, and the short soak
 check release scripts/build.sh release             # modules and apps as users build them
 check tidy scripts/tidy.sh
 check asan scripts/test.sh asan                    # apps and the virtual camera, too

@@ -32,14 +32,8 @@ show_progress() {
 scripts/install_packages.sh
 mkdir -p build/demo
 
-# Without a GPU, CUDA would be compiled for nothing. What is configured already stays as it is.
-options=()
-if [[ ! -e build/release/build.ninja ]] && ! nvidia-smi >/dev/null 2>&1; then
-  options=(-DFOOTHOLD_CUDA=OFF)
-  echo "No GPU here: building without CUDA, as later builds of preset release will ('scripts/build.sh release -DFOOTHOLD_CUDA=AUTO' adds it)" >&2
-fi
 echo "Building (a few minutes the first time; details in build/demo/build.log)" >&2
-if ! scripts/build.sh release "${options[@]}" relocalisation_benchmark 2>&1 | tee build/demo/build.log | show_progress; then
+if ! scripts/build.sh release relocalisation_benchmark 2>&1 | tee build/demo/build.log | show_progress; then
   tail -n 30 build/demo/build.log >&2
   echo "demo: the build failed; all that it said is in build/demo/build.log" >&2
   exit 1

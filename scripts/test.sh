@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 The Foothold authors
 #
-# Installs what is missing, builds everything that this machine can build, and runs all tests.
+# Installs what is missing, builds everything that this machine can run, and runs all tests.
 #
 #   scripts/test.sh [PRESET] [-DOPTION=VALUE...] [CTEST-ARGUMENT...]      e.g.  scripts/test.sh asan --tests-regex base/
 #

@@ -41,6 +41,7 @@ class ScriptTest(unittest.TestCase):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         shutil.copy(REPOSITORY / "CMakePresets.json", self.folder)
         shutil.copytree(REPOSITORY / "scripts", self.folder / "scripts")
+        shutil.copytree(REPOSITORY / ".ci", self.folder / ".ci")
         self.write_program("scripts/install_packages.sh", "exit 0")
         self.write_program("program", "exit 0")
         (self.folder / "CMakeLists.txt").write_text(PROJECT)
@@ -51,11 +52,9 @@ class ScriptTest(unittest.TestCase):
         file.write_text(f"#!/bin/sh\n{text}\n")
         file.chmod(0o755)
 
-    def run_script(self, name, *arguments, status=0, gpu=False):
-        self.write_program("fake/nvidia-smi", "exit 0" if gpu else "exit 9")
-        environment = dict(os.environ, PATH=f"{self.folder / 'fake'}:{os.environ['PATH']}")
-        result = subprocess.run([self.folder / "scripts" / name, *arguments], env=environment, stdin=subprocess.DEVNULL,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+    def run_script(self, name, *arguments, status=0, environment=None):
+        result = subprocess.run([self.folder / name if "/" in name else self.folder / "scripts" / name, *arguments], env=environment,
+                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         self.assertEqual(result.returncode, status, result.stdout)
         return result.stdout
 
@@ -111,20 +110,23 @@ class TestTest(ScriptTest):
         self.assertEqual(self.option("FOOTHOLD_CUDA", "ci"), "OFF")
 
 
+class ContinuousIntegrationTest(ScriptTest):
+    def test_cuda_is_compiled_where_nvcc_is(self):
+        self.write_program("fake/nvcc", "exit 0")
+        self.run_script(".ci/run", environment=dict(os.environ, PATH=f"{self.folder / 'fake'}:{os.environ['PATH']}"))
+        self.assertEqual(self.option("FOOTHOLD_CUDA", "ci"), "ON")
+
+
 class DemoTest(ScriptTest):
-    def test_without_a_gpu_cuda_is_left_out_and_only_what_the_demo_needs_is_built(self):
-        self.assertIn("without CUDA", self.run_script("demo.sh"))
-        self.assertEqual(self.option("FOOTHOLD_CUDA"), "OFF")
+    def test_only_what_the_demo_needs_is_built(self):
+        self.run_script("demo.sh")
+        self.assertTrue(self.is_built("bin/relocalisation_benchmark"))
         self.assertFalse(self.is_built("first"))
 
-    def test_with_a_gpu_cuda_is_compiled(self):
-        self.run_script("demo.sh", gpu=True)
-        self.assertEqual(self.option("FOOTHOLD_CUDA"), "AUTO")
-
     def test_what_is_configured_stays_as_it_is(self):
-        self.run_script("build.sh")
+        self.run_script("build.sh", "-DFOOTHOLD_CUDA=OFF")
         self.run_script("demo.sh")
-        self.assertEqual(self.option("FOOTHOLD_CUDA"), "AUTO")
+        self.assertEqual(self.option("FOOTHOLD_CUDA"), "OFF")
 
 
 class CompileTimesTest(ScriptTest):

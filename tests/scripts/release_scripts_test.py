@@ -29,6 +29,7 @@ class ReleaseScriptTest(unittest.TestCase):
     def setUp(self):
         self.folder = pathlib.Path(self.enterContext(tempfile.TemporaryDirectory()))
         shutil.copytree(REPOSITORY / "scripts", self.folder / "scripts")
+        shutil.copytree(REPOSITORY / ".ci", self.folder / ".ci")
         for name in ["install_packages", "build", "test", "tidy"]:
             self.write_program(f"scripts/{name}.sh", "exit 0")
         for name in ["map", "scene"]:
