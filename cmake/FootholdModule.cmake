@@ -17,6 +17,18 @@ if(FOOTHOLD_SANITIZE)
   target_link_options(foothold_flags INTERFACE -fsanitize=${FOOTHOLD_SANITIZE})
 endif()
 
+# foothold_group_sources(<sources> <dispatching sources>): which sources a unity build compiles as one: eight at a time, and apart from them
+# those that choose between devices, since tests with a device of their own replace the objects of the latter.
+function(foothold_group_sources sources dispatching)
+  set(index 0)
+  foreach(source ${sources})
+    math(EXPR group "${index} / 8")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP sources_${group})
+    math(EXPR index "${index} + 1")
+  endforeach()
+  set_source_files_properties(${dispatching} PROPERTIES UNITY_GROUP dispatching)
+endfunction()
+
 # foothold_module(<name> [SOURCES ...] [DISPATCHING_SOURCES ...] [CUDA_SOURCES ...] [PUBLIC ...] [PRIVATE ...])
 #
 # A library foothold_<name>, alias foothold::<name>, with its public headers in include/ and its private ones in src/.
@@ -29,9 +41,9 @@ function(foothold_module name)
     add_library(${target} ${arg_SOURCES} ${arg_DISPATCHING_SOURCES})
     list(TRANSFORM arg_DISPATCHING_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
     set_target_properties(${target} PROPERTIES DISPATCHING_SOURCES "${arg_DISPATCHING_SOURCES}")
-    set_source_files_properties(${arg_DISPATCHING_SOURCES} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # objects that such tests replace
+    foothold_group_sources("${arg_SOURCES}" "${arg_DISPATCHING_SOURCES}")
     set(scope PUBLIC)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ${FOOTHOLD_UNITY})
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ${FOOTHOLD_UNITY} UNITY_BUILD_MODE GROUP)
     target_link_libraries(${target} PRIVATE $<BUILD_INTERFACE:foothold_flags>)
     target_include_directories(${target} PRIVATE src)
     if(FOOTHOLD_HAS_CUDA AND arg_CUDA_SOURCES)
@@ -69,6 +81,13 @@ function(foothold_app name)
   set_property(GLOBAL APPEND PROPERTY FOOTHOLD_APPS ${name})
 endfunction()
 
+# foothold_build_as_test(<target>): how programs of tests are compiled. Most of their code runs once: optimising it costs more than it saves.
+function(foothold_build_as_test target)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FOOTHOLD_UNITY})
+  target_link_libraries(${target} PRIVATE foothold_flags)
+  target_compile_options(${target} PRIVATE $<$<AND:$<COMPILE_LANGUAGE:CXX>,$<NOT:$<CONFIG:Debug>>>:-O1>)
+endfunction()
+
 # foothold_test(<module> SOURCES ... [LIBRARIES ...] [PROPERTIES ...])
 #
 # An executable foothold_<module>_tests whose Catch2 test cases become CTest tests. It may see the module's private headers. PROPERTIES are those
@@ -77,8 +96,8 @@ function(foothold_test module)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBRARIES;PROPERTIES" ${ARGN})
   set(target foothold_${module}_tests)
   add_executable(${target} ${arg_SOURCES})
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ${FOOTHOLD_UNITY})
-  target_link_libraries(${target} PRIVATE foothold_flags foothold_test_support foothold::${module} ${arg_LIBRARIES})
+  foothold_build_as_test(${target})
+  target_link_libraries(${target} PRIVATE foothold_test_support foothold::${module} ${arg_LIBRARIES})
   target_include_directories(${target} PRIVATE ${PROJECT_SOURCE_DIR}/modules/${module}/src)
   catch_discover_tests(${target} TEST_PREFIX "${module}/" DISCOVERY_MODE PRE_TEST PROPERTIES ${arg_PROPERTIES})
 endfunction()

@@ -7,7 +7,7 @@
 #include "fuzz.h"
 #include "text_file.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(camera) {
   using namespace foothold;
   const std::string text = io::plain_text(fuzz::text_of(data, size));
   for (const io::CameraKind kind : {io::CameraKind::kDepth, io::CameraKind::kColour}) {

@@ -6,7 +6,7 @@
 #include "memory_file.h"
 #include "small_training.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(checkpoint) {
   using namespace foothold;
   const fuzz::MemoryFile file(fuzz::mended(fuzz::text_of(data, size), fuzz::Chain::kOfPrevious));
   fuzz::attempt([&] {

@@ -8,7 +8,7 @@
 
 #include "fuzz.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(classifier) {
   using namespace foothold;
   fuzz::attempt([&] {
     std::istringstream stream(fuzz::text_of(data, size));

@@ -6,7 +6,7 @@
 #include "checked_file.h"
 #include "small_forest.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(forest) {
   using namespace foothold;
   fuzz::attempt([&] {
     std::istringstream stream(fuzz::mended(fuzz::text_of(data, size)));

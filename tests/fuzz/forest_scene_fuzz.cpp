@@ -16,7 +16,7 @@ std::string saved_scene(const foothold::ForestRelocaliser& relocaliser) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(forest_scene) {
   using namespace foothold;
   static const ForestRelocaliser untaught(fuzz::one_thread(), fuzz::small_forest(), fuzz::small_forest_settings());
   fuzz::attempt([&] {

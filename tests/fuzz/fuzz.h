@@ -5,12 +5,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "foothold/base/error.h"
-
-/// libFuzzer's entry point.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace foothold::fuzz {
 
@@ -35,4 +33,24 @@ inline void require(bool condition) {
   if (!condition) __builtin_trap();
 }
 
+/// A fuzz target: whatever the input of `size` bytes, the result is 0.
+using Target = int (*)(const std::uint8_t* data, std::size_t size);
+
+/// All targets of the program that replays corpora, by name.
+inline std::map<std::string, Target>& targets() {
+  static std::map<std::string, Target> all;
+  return all;
+}
+
 }  // namespace foothold::fuzz
+
+/// Begins the definition of a fuzz target, whose body sees `data` and `size`: libFuzzer's entry point, or one of the targets that
+/// replay_main.cpp knows.
+#ifdef FOOTHOLD_FUZZ_REPLAY
+#define FOOTHOLD_FUZZ_TARGET(name)                                                                  \
+  static int fuzz_##name(const std::uint8_t* data, std::size_t size);                               \
+  static const bool kHasFuzz_##name = foothold::fuzz::targets().emplace(#name, fuzz_##name).second; \
+  static int fuzz_##name(const std::uint8_t* data, std::size_t size)
+#else
+#define FOOTHOLD_FUZZ_TARGET(name) extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
+#endif

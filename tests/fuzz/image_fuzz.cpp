@@ -5,7 +5,7 @@
 #include "image_decoding.h"
 #include "image_header.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(image) {
   using namespace foothold;
   const std::string bytes = fuzz::text_of(data, size);
   const std::optional<io::ImageHeader> header = io::parse_image_header(bytes);

@@ -6,7 +6,7 @@
 #include "checked_file.h"
 #include "small_keyframes.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(keyframe_scene) {
   using namespace foothold;
   fuzz::attempt([&] {
     KeyframeRelocaliser relocaliser(fuzz::one_thread(), fuzz::small_keyframe_settings());

@@ -10,7 +10,7 @@
 #include "trajectory.h"
 #include "tum_sequence.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(list) {
   using namespace foothold;
   const std::string text = io::plain_text(fuzz::text_of(data, size));
   const std::string first = text.substr(0, text.find('\xff'));

@@ -7,7 +7,7 @@
 #include "foothold/fusion/surface_mesh.h"
 #include "small_fusion.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(map) {
   using namespace foothold;
   fuzz::attempt([&] {
     FusionPipeline pipeline(fuzz::one_thread(), fuzz::small_fusion_settings(), nullptr);

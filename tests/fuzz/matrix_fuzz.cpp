@@ -6,7 +6,7 @@
 #include "recorded_pose.h"
 #include "text_file.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(matrix) {
   using namespace foothold;
   const std::string text = io::plain_text(fuzz::text_of(data, size));
   fuzz::attempt([&] { fuzz::require(is_rigid(io::parse_transform(text, "pose.txt"), 1e-5F)); });

@@ -4,7 +4,7 @@
 #include "fuzz.h"
 #include "mesh_file.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(ply) {
   using namespace foothold;
   const std::string bytes = fuzz::text_of(data, size);
   fuzz::attempt([&] {

@@ -6,7 +6,7 @@
 #include "stray_scanner_sequence.h"
 #include "text_file.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(pose_list) {
   using namespace foothold;
   const std::string text = io::plain_text(fuzz::text_of(data, size));
   const auto check = [](const std::optional<io::RecordedPose>& pose) {

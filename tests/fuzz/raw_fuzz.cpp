@@ -9,7 +9,7 @@
 #include "fuzz.h"
 #include "memory_file.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(raw) {
   using namespace foothold;
   const fuzz::MemoryFile file(fuzz::mended(fuzz::text_of(data, size), fuzz::Chain::kOfFirst));
   if (!is_raw_sequence(file.path())) return 0;

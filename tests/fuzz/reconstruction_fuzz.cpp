@@ -8,7 +8,7 @@
 #include "small_forest.h"
 #include "small_fusion.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(reconstruction) {
   using namespace foothold;
   static const Reconstruction empty(fuzz::one_thread(), {fuzz::small_fusion_settings(), fuzz::small_forest_settings()},
                                     fuzz::small_forest());

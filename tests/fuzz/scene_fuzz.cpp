@@ -30,7 +30,7 @@ void mend_checksums(std::string& file) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(scene) {
   using namespace foothold;
   std::string file = fuzz::text_of(data, size);
   mend_checksums(file);

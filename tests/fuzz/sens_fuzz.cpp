@@ -8,7 +8,7 @@
 #include "raw_image.h"
 #include "sens_file.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(sens) {
   using namespace foothold;
   const std::string bytes = fuzz::text_of(data, size);
   fuzz::attempt([&] {

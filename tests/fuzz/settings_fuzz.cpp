@@ -26,7 +26,7 @@ void assign_all(const std::string& text, OuterSettings& settings) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(settings) {
   using namespace foothold;
   const std::string text = fuzz::text_of(data, size);
   fuzz::attempt([&] {

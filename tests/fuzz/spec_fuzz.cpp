@@ -5,7 +5,7 @@
 #include "foothold/synthetic/synthetic_sequence.h"
 #include "fuzz.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(spec) {
   using namespace foothold;
   const std::string text = fuzz::text_of(data, size);
   fuzz::attempt([&] {

@@ -11,6 +11,10 @@ namespace foothold::test {
 /// True in the program that emulates the device.
 bool device_is_emulated();
 
+/// Lanes add floats in another order than the host; poses that follow from the sums may differ by this much.
+inline constexpr float kPoseTolerance_m = 1e-3F;
+inline constexpr float kPoseTolerance_rad = 1e-3F;
+
 inline Context context_on(Device device, int num_threads = 1, int cuda_device = 0) {
   ContextOptions options;
   options.device = device;

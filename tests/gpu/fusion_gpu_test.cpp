@@ -29,8 +29,6 @@ constexpr double kMaxDeviatingVoxels = 1e-4;
 constexpr float kDepthTolerance_m = 1e-4F;
 /// Rays that graze an edge may hit on one device and miss on the other.
 constexpr double kMaxDeviatingPixels = 1e-3;
-constexpr float kPoseTolerance_m = 1e-3F;
-constexpr float kPoseTolerance_rad = 1e-3F;
 
 /// Coarse enough for the emulated device.
 TsdfSettings coarse() {
@@ -141,8 +139,8 @@ TEST_CASE("CUDA: tracking gives the CPU's poses and measures") {
     device_tracker.set_frame(uploader.upload(frame.view()));
     const TrackingResult expected = host_tracker.track(views.expected, start);
     const TrackingResult actual = device_tracker.track(views.actual, start);
-    REQUIRE(translation_distance_m(actual.world_from_camera, expected.world_from_camera) < kPoseTolerance_m);
-    REQUIRE(rotation_distance_rad(actual.world_from_camera, expected.world_from_camera) < kPoseTolerance_rad);
+    REQUIRE(translation_distance_m(actual.world_from_camera, expected.world_from_camera) < test::kPoseTolerance_m);
+    REQUIRE(rotation_distance_rad(actual.world_from_camera, expected.world_from_camera) < test::kPoseTolerance_rad);
     REQUIRE(actual.measures.well_posed == expected.measures.well_posed);
     REQUIRE(std::abs(actual.measures.inlier_fraction - expected.measures.inlier_fraction) < 0.01F);
     REQUIRE(std::abs(actual.measures.residual_m - expected.measures.residual_m) < 0.001F);
@@ -207,8 +205,8 @@ TEST_CASE("CUDA: candidates refined in one batch end where the CPU's end, with i
     REQUIRE(actual.candidate == expected.candidate);
     REQUIRE(actual.accepted == expected.accepted);
     REQUIRE((actual.score == expected.score || std::abs(actual.score - expected.score) < kScoreTolerance));  // minus infinity is equal
-    REQUIRE(translation_distance_m(actual.world_from_camera, expected.world_from_camera) < kPoseTolerance_m);
-    REQUIRE(rotation_distance_rad(actual.world_from_camera, expected.world_from_camera) < kPoseTolerance_rad);
+    REQUIRE(translation_distance_m(actual.world_from_camera, expected.world_from_camera) < test::kPoseTolerance_m);
+    REQUIRE(rotation_distance_rad(actual.world_from_camera, expected.world_from_camera) < test::kPoseTolerance_rad);
   }
 }
 
@@ -239,8 +237,8 @@ TEST_CASE("CUDA: the pipeline tracks, grades and fuses as the CPU's does, on wha
     REQUIRE(actual.fused == expected.fused);
     REQUIRE(actual.world_from_camera.has_value() == expected.world_from_camera.has_value());
     if (!expected.world_from_camera) continue;
-    REQUIRE(translation_distance_m(*actual.world_from_camera, *expected.world_from_camera) < kPoseTolerance_m);
-    REQUIRE(rotation_distance_rad(*actual.world_from_camera, *expected.world_from_camera) < kPoseTolerance_rad);
+    REQUIRE(translation_distance_m(*actual.world_from_camera, *expected.world_from_camera) < test::kPoseTolerance_m);
+    REQUIRE(rotation_distance_rad(*actual.world_from_camera, *expected.world_from_camera) < test::kPoseTolerance_rad);
   }
   REQUIRE(results[0][3].world_from_camera.has_value());
   REQUIRE(std::abs(num_blocks[1] - num_blocks[0]) <= num_blocks[0] / 50);

@@ -17,9 +17,7 @@
 namespace foothold {
 namespace {
 
-// Lanes add floats in another order than the host; what follows from the sums may differ by this much.
-constexpr float kPoseTolerance_m = 1e-3F;
-constexpr float kPoseTolerance_rad = 1e-3F;
+/// For the same reason as test::kPoseTolerance_m.
 constexpr float kConfidenceTolerance = 0.02F;
 
 /// A relocaliser on a device, fed from the host.
@@ -125,8 +123,8 @@ TEST_CASE("CUDA: poses are the CPU's to a millimetre and a milliradian") {
     REQUIRE(actual.size() == expected.size());
     if (expected.empty()) continue;
     ++num_found;
-    REQUIRE(translation_distance_m(actual[0].world_from_camera, expected[0].world_from_camera) < kPoseTolerance_m);
-    REQUIRE(rotation_distance_rad(actual[0].world_from_camera, expected[0].world_from_camera) < kPoseTolerance_rad);
+    REQUIRE(translation_distance_m(actual[0].world_from_camera, expected[0].world_from_camera) < test::kPoseTolerance_m);
+    REQUIRE(rotation_distance_rad(actual[0].world_from_camera, expected[0].world_from_camera) < test::kPoseTolerance_rad);
     REQUIRE(std::abs(actual[0].confidence - expected[0].confidence) < kConfidenceTolerance);
     REQUIRE(translation_distance_m(actual[0].world_from_camera, *test::office()[i].world_from_camera) < 0.05F);
   }
@@ -148,7 +146,7 @@ TEST_CASE("CUDA: another device than the first learns and finds the same") {
   const std::vector<PoseEstimate> actual = second.relocalise(1);
   REQUIRE_FALSE(expected.empty());
   REQUIRE(actual.size() == expected.size());
-  REQUIRE(translation_distance_m(actual[0].world_from_camera, expected[0].world_from_camera) < kPoseTolerance_m);
+  REQUIRE(translation_distance_m(actual[0].world_from_camera, expected[0].world_from_camera) < test::kPoseTolerance_m);
 }
 
 TEST_CASE("CUDA: a frame in the memory of another device is refused") {
@@ -175,8 +173,8 @@ TEST_CASE("CUDA: the paper's settings give the CPU's poses") {
   const std::vector<PoseEstimate> actual = device.relocalise(3);
   REQUIRE_FALSE(expected.empty());
   REQUIRE(actual.size() == expected.size());
-  REQUIRE(translation_distance_m(actual[0].world_from_camera, expected[0].world_from_camera) < kPoseTolerance_m);
-  REQUIRE(rotation_distance_rad(actual[0].world_from_camera, expected[0].world_from_camera) < kPoseTolerance_rad);
+  REQUIRE(translation_distance_m(actual[0].world_from_camera, expected[0].world_from_camera) < test::kPoseTolerance_m);
+  REQUIRE(rotation_distance_rad(actual[0].world_from_camera, expected[0].world_from_camera) < test::kPoseTolerance_rad);
 }
 
 TEST_CASE("CUDA: blank depth teaches and finds nothing, and reset forgets") {
