@@ -15,8 +15,8 @@ namespace foothold {
 
 /// The calibration of an RGB-D camera. Poses belong to the depth camera.
 struct RgbdCalibration {
-  Intrinsics depth;
-  Intrinsics colour;
+  Intrinsics depth;   ///< of the depth camera [px]
+  Intrinsics colour;  ///< of the colour camera [px]
   /// Transforms points of the colour camera into the depth camera; the identity for registered images.
   SE3 depth_from_colour;
 };
@@ -34,11 +34,11 @@ bool same_calibration(const RgbdCalibration& a, const RgbdCalibration& b);
 /// or negate fy, set cy to height - 1 - cy and flip the rows. depth_from_colour is a rotation and a translation in metres; matrices that
 /// mirror (OpenGL's axes) or scale (millimetres) are refused.
 struct Frame {
-  ImageView<const float> depth;
-  ColourView colour;
-  RgbdCalibration calibration;
-  std::int64_t index = 0;
-  double timestamp_s = 0.0;
+  ImageView<const float> depth;  ///< z [m]; NaN, 0 and less mean no measurement
+  ColourView colour;             ///< may be empty
+  RgbdCalibration calibration;   ///< of both cameras
+  std::int64_t index = 0;        ///< position in the recording, or a count of frames
+  double timestamp_s = 0.0;      ///< when the image was taken [s]
 };
 
 /// Checks what every consumer of frames relies on: images present, equal sizes, one kind of memory, valid intrinsics, rigid
@@ -48,13 +48,14 @@ std::string describe_frame_error(const Frame& frame);
 
 /// An RGB-D frame that owns its images, as read from a camera or a recording.
 struct RgbdFrame {
-  Image<float> depth;  ///< z [m]
-  Image<Rgb8> colour;
-  RgbdCalibration calibration;
-  std::int64_t index = 0;  ///< position in the recording
-  double timestamp_s = 0.0;
+  Image<float> depth;                    ///< z [m]
+  Image<Rgb8> colour;                    ///< may be empty
+  RgbdCalibration calibration;           ///< of both cameras
+  std::int64_t index = 0;                ///< position in the recording
+  double timestamp_s = 0.0;              ///< when the images were taken [s]
   std::optional<SE3> world_from_camera;  ///< the true pose of the depth camera, where known
 
+  /// A frame that looks at these images, which must outlive it.
   Frame view() const { return {depth.view(), colour_view(colour), calibration, index, timestamp_s}; }
 };
 

@@ -16,6 +16,7 @@ class Sequence {
   virtual ~Sequence() = default;
   /// How messages and reports call it.
   virtual std::string name() const = 0;
+  /// How many frames there are.
   virtual int num_frames() const = 0;
   /// Reads one frame. Thread-safe. @pre 0 <= index < num_frames() @throws FileError naming the file that is missing or damaged.
   virtual RgbdFrame load(int index) const = 0;
@@ -25,7 +26,9 @@ class Sequence {
 
  protected:
   Sequence() = default;
+  /// Copies are made by derived classes.
   Sequence(const Sequence&) = default;
+  /// Copies are made by derived classes.
   Sequence& operator=(const Sequence&) = default;
 };
 
@@ -45,7 +48,9 @@ class FrameSource {
 
  protected:
   FrameSource() = default;
+  /// Copies are made by derived classes.
   FrameSource(const FrameSource&) = default;
+  /// Copies are made by derived classes.
   FrameSource& operator=(const FrameSource&) = default;
 };
 

@@ -13,7 +13,7 @@ namespace foothold {
 
 /// A proposed pose of the depth camera.
 struct PoseEstimate {
-  SE3 world_from_camera;
+  SE3 world_from_camera;  ///< maps points of the depth camera to the world [m]
   /// Calibrated probability that the pose is right (within 10 cm and 10 deg), in [0, 1].
   float confidence = 0.0F;
 };
@@ -58,7 +58,9 @@ class Relocaliser {
 
  protected:
   Relocaliser() = default;
+  /// Copies are made by derived classes.
   Relocaliser(const Relocaliser&) = default;
+  /// Copies are made by derived classes.
   Relocaliser& operator=(const Relocaliser&) = default;
 };
 

@@ -30,7 +30,9 @@ class RelocaliserDecorator : public Relocaliser {
   float acceptance_threshold() const override { return inner_->acceptance_threshold(); }
 
  protected:
+  /// The relocaliser that is decorated.
   Relocaliser& inner() { return *inner_; }
+  /// The relocaliser that is decorated.
   const Relocaliser& inner() const { return *inner_; }
 
  private:

@@ -49,20 +49,26 @@ class Array {
   static_assert(std::is_trivially_destructible_v<T>, "Array moves its elements as bytes");
 
  public:
+  /// An empty array in the given place.
   explicit Array(const Memory& memory = {}) : memory_(memory) {}
+  /// Elements in the given place, with undefined values.
   // Delegating, so that the destructor frees what was allocated before an exception.
   Array(const Memory& memory, std::size_t size) : Array(memory) { resize(size); }
   /// Copies host elements to the given place.
   Array(const Memory& memory, Span<const T> host) : Array(memory) { assign(host); }
 
+  /// Copies the elements, in the same place.
   Array(const Array& other) : Array(other.memory_) { copy_from(other); }
+  /// Takes over the elements; the other array is empty then.
   Array(Array&& other) noexcept { swap(other); }
+  /// Copies or takes over the elements and the place.
   Array& operator=(Array other) noexcept {
     swap(other);
     return *this;
   }
   ~Array() { detail::free_memory(memory_, data_); }
 
+  /// Exchanges elements and places.
   void swap(Array& other) noexcept {
     std::swap(memory_, other.memory_);
     std::swap(data_, other.data_);
@@ -70,18 +76,29 @@ class Array {
     std::swap(capacity_, other.capacity_);
   }
 
+  /// The place of the elements.
   const Memory& memory() const { return memory_; }
+  /// The number of elements.
   std::size_t size() const { return size_; }
+  /// Whether there are no elements.
   bool empty() const { return size_ == 0; }
   /// Memory held, in bytes; at least size() elements.
   std::size_t num_bytes() const { return capacity_ * sizeof(T); }
+  /// The first element, in memory(); may be null where the array is empty.
   T* data() { return data_; }
+  /// The first element, in memory(); may be null where the array is empty.
   const T* data() const { return data_; }
+  /// Element i of an array in host memory. Never checks bounds.
   T& operator[](std::size_t i) { return data_[i]; }
+  /// Element i of an array in host memory. Never checks bounds.
   const T& operator[](std::size_t i) const { return data_[i]; }
+  /// The first element.
   T* begin() { return data_; }
+  /// Behind the last element.
   T* end() { return data_ + size_; }
+  /// The first element.
   const T* begin() const { return data_; }
+  /// Behind the last element.
   const T* end() const { return data_ + size_; }
 
   /// Makes room for `capacity` elements, exactly, keeping the contents.
@@ -120,6 +137,7 @@ class Array {
     resize(host.size());
     if (size_ != 0) detail::write_memory(context, data_, host.data(), size_ * sizeof(T));
   }
+  /// A copy on the host; waits for the device.
   std::vector<T> to_host(const Context& context) const {
     std::vector<T> host(size_);
     if (size_ != 0) detail::read_memory(context, host.data(), data_, size_ * sizeof(T));

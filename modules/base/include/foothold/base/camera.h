@@ -11,10 +11,10 @@ namespace foothold {
 
 /// Focal lengths and principal point [px] of an undistorted pinhole camera.
 struct Intrinsics {
-  float fx = 0.0F;
-  float fy = 0.0F;
-  float cx = 0.0F;
-  float cy = 0.0F;
+  float fx = 0.0F;  ///< focal length along rows [px]
+  float fy = 0.0F;  ///< focal length along columns [px]
+  float cx = 0.0F;  ///< column of the principal point [px]
+  float cy = 0.0F;  ///< row of the principal point [px]
 
   /// The camera point seen at pixel (u, v) with depth z [m] along the optical axis.
   FOOTHOLD_HD Eigen::Vector3f back_project(float u, float v, float depth_m) const {

@@ -26,9 +26,9 @@ namespace foothold {
 
 /// What a kind of data begins with, and how messages call it.
 struct BinaryFormat {
-  const char* name;   ///< such as "forest"
-  const char* magic;  ///< 8 characters
-  std::uint32_t version;
+  const char* name;       ///< such as "forest"
+  const char* magic;      ///< 8 characters
+  std::uint32_t version;  ///< of what is written, and the only one that is read
 };
 
 /// Bytes of contents in a piece at most.
@@ -59,6 +59,7 @@ class CheckedWriter {
   CheckedWriter(const CheckedWriter&) = delete;
   CheckedWriter& operator=(const CheckedWriter&) = delete;
 
+  /// Writes bytes as they are.
   void write_bytes(const void* data, std::size_t num_bytes);
 
   /// Writes a value as its bytes.
@@ -75,10 +76,12 @@ class CheckedWriter {
     write(static_cast<std::uint64_t>(values.size()));
     write_bytes(values.data(), values.size() * sizeof(T));
   }
+  /// Writes a count (u64) and the elements' bytes.
   template <class T>
   void write_array(const std::vector<T>& values) {
     write_array(Span<const T>(values));
   }
+  /// Writes a count (u64) and the characters.
   void write_text(const std::string& text) { write_array(Span<const char>(text)); }
 
   /// Writes the rotation by columns, then the translation: 12 floats.
@@ -113,6 +116,7 @@ class CheckedReader {
   /// @param what  names the contents in messages.
   void read_bytes(void* data, std::size_t num_bytes, const char* what);
 
+  /// Reads a value from its bytes.
   template <class T>
   T read(const char* what) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -141,6 +145,7 @@ class CheckedReader {
     }
     return values;
   }
+  /// Reads what write_text() wrote, of at most max_bytes.
   std::string read_text(const char* what, std::uint64_t max_bytes);
   /// @throws FileError also for a transform that is not rigid.
   SE3 read_transform(const char* what);

@@ -38,7 +38,7 @@ using LogSink = std::function<void(LogLevel, const std::string&)>;
 
 /// Which device, threads, stream, log and trace a Context works with.
 struct ContextOptions {
-  Device device = Device::kCpu;
+  Device device = Device::kCpu;  ///< where kernels run
   /// Threads used on the host, the calling one included; 0 means as many as the machine has. [0, 1024]
   int num_threads = 0;
   /// The index of the CUDA device to work on, as CUDA counts those that CUDA_VISIBLE_DEVICES leaves; whatever device is the calling
@@ -49,7 +49,7 @@ struct ContextOptions {
   /// CUDA's default stream. If none is named, the context has a stream of its own that waits for no other: such a host then synchronises
   /// before and after each call.
   std::optional<void*> cuda_stream;
-  LogSink log;
+  LogSink log;  ///< receives messages; none are told where it is empty
   /// Receives the duration of every stage when given; must outlive the context. On CUDA it is the time between two marks in the stream, and
   /// a stage that lies in no other ends with waiting for the device.
   Trace* trace = nullptr;
@@ -66,13 +66,17 @@ class Context {
   /// its driver is missing, or the build has no CUDA or no code for the device.
   explicit Context(const ContextOptions& options = {});
 
+  /// Where kernels run.
   Device device() const;
   /// The device's own name, such as "NVIDIA H100 80GB HBM3", or "CPU".
   std::string device_name() const;
   /// The memory that this context's kernels work on.
   Memory memory() const;
+  /// Threads used on the host, the calling one included.
   int num_threads() const;
+  /// What receives durations; null for nothing.
   Trace* trace() const;
+  /// Tells the log that the options named, if they named one.
   void log(LogLevel level, const std::string& message) const;
   /// The CUDA stream (a cudaStream_t) of this context; nullptr on the CPU.
   void* stream() const;

@@ -15,22 +15,25 @@ namespace foothold {
 
 /// One colour pixel, 8 bits per channel.
 struct Rgb8 {
-  std::uint8_t r = 0;
-  std::uint8_t g = 0;
-  std::uint8_t b = 0;
+  std::uint8_t r = 0;  ///< red
+  std::uint8_t g = 0;  ///< green
+  std::uint8_t b = 0;  ///< blue
 };
 static_assert(sizeof(Rgb8) == 3, "images of Rgb8 are read as interleaved bytes");
 
 /// A non-owning view of a dense image.
 template <class T>
 struct ImageView {
-  T* data = nullptr;
-  int width = 0;
-  int height = 0;
-  Memory memory;
+  T* data = nullptr;  ///< the first pixel of the first row
+  int width = 0;      ///< columns
+  int height = 0;     ///< rows
+  Memory memory;      ///< where the pixels lie
 
+  /// Whether there are no pixels.
   FOOTHOLD_HD bool empty() const { return data == nullptr || width <= 0 || height <= 0; }
+  /// The number of pixels.
   FOOTHOLD_HD std::size_t size() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
+  /// Whether there is a pixel in column u and row v.
   FOOTHOLD_HD bool contains(int u, int v) const { return u >= 0 && v >= 0 && u < width && v < height; }
   /// The pixel in column u and row v. Never checks bounds.
   FOOTHOLD_HD T& operator()(int u, int v) const {
@@ -45,12 +48,13 @@ struct ImageView {
 
 /// A non-owning view of an interleaved colour image: R, G and B are the first three bytes of each pixel, whose size is 3 (RGB) or 4 (RGBA).
 struct ColourView {
-  const std::uint8_t* data = nullptr;
-  int width = 0;
-  int height = 0;
-  int bytes_per_pixel = 3;
-  Memory memory;
+  const std::uint8_t* data = nullptr;  ///< the first byte of the first row
+  int width = 0;                       ///< columns
+  int height = 0;                      ///< rows
+  int bytes_per_pixel = 3;             ///< 3 (RGB) or 4 (RGBA)
+  Memory memory;                       ///< where the pixels lie
 
+  /// Whether there are no pixels.
   FOOTHOLD_HD bool empty() const { return data == nullptr || width <= 0 || height <= 0; }
   /// The pixel in column u and row v. Never checks bounds.
   FOOTHOLD_HD Rgb8 operator()(int u, int v) const {
@@ -71,15 +75,25 @@ class Image {
     pixels_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), value);
   }
 
+  /// Columns.
   int width() const { return width_; }
+  /// Rows.
   int height() const { return height_; }
+  /// Whether there are no pixels.
   bool empty() const { return pixels_.empty(); }
+  /// The number of pixels.
   std::size_t size() const { return pixels_.size(); }
+  /// The first pixel of the first row.
   T* data() { return pixels_.data(); }
+  /// The first pixel of the first row.
   const T* data() const { return pixels_.data(); }
+  /// The pixel in column u and row v. Never checks bounds.
   T& operator()(int u, int v) { return pixels_[index(u, v)]; }
+  /// The pixel in column u and row v. Never checks bounds.
   const T& operator()(int u, int v) const { return pixels_[index(u, v)]; }
+  /// A view of these pixels, which must outlive it.
   ImageView<T> view() { return {data(), width_, height_, MemoryKind::kHost}; }
+  /// A view of these pixels, which must outlive it.
   ImageView<const T> view() const { return {data(), width_, height_, MemoryKind::kHost}; }
 
  private:

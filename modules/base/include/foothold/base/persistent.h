@@ -20,7 +20,9 @@ class Persistent {
 
  protected:
   Persistent() = default;
+  /// Copies are made by derived classes.
   Persistent(const Persistent&) = default;
+  /// Copies are made by derived classes.
   Persistent& operator=(const Persistent&) = default;
 };
 

@@ -34,9 +34,10 @@ enum class MemoryKind { kHost, kCuda };
 
 /// Where memory lives: on the host, or on a CUDA device. The kind alone, MemoryKind::kCuda, means CUDA's device 0.
 struct Memory {
-  MemoryKind kind = MemoryKind::kHost;
-  int cuda_device = 0;  ///< the index of the device, as CUDA counts them; 0 on the host
+  MemoryKind kind = MemoryKind::kHost;  ///< on the host, or on a CUDA device
+  int cuda_device = 0;                  ///< the index of the device, as CUDA counts them; 0 on the host
 
+  /// A place on the host, or on the CUDA device with this index.
   // NOLINTNEXTLINE(google-explicit-constructor): a kind is a place where there is one device
   FOOTHOLD_HD constexpr Memory(MemoryKind memory_kind = MemoryKind::kHost, int device_index = 0)
       : kind(memory_kind), cuda_device(device_index) {}

@@ -24,6 +24,7 @@ FOOTHOLD_HD constexpr std::uint64_t derive_seed(std::uint64_t seed, std::uint64_
 /// A cursor into the random sequence named by (seed, stream). Copies continue independently from the same place.
 class Random {
  public:
+  /// The beginning of the sequence. Streams of one seed are independent of each other.
   FOOTHOLD_HD constexpr Random(std::uint64_t seed, std::uint64_t stream) : base_(derive_seed(seed, stream)) {}
 
   /// The same sequence, `jump` * 2^32 numbers further on: sequences of their own for the parts of one task.

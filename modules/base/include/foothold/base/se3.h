@@ -16,11 +16,15 @@ using Tangent6 = Eigen::Matrix<float, 6, 1>;
 
 /// A rigid transform x -> R x + t. Members are alignment-neutral: 48 bytes under every compiler.
 struct SE3 {
+  /// R, orthonormal with determinant 1
   Eigen::Matrix3f rotation = Eigen::Matrix3f::Identity();
-  Eigen::Vector3f translation = Eigen::Vector3f::Zero();
+  Eigen::Vector3f translation = Eigen::Vector3f::Zero();  ///< t [m]
 
+  /// The transformed point, R x + t.
   FOOTHOLD_HD Eigen::Vector3f operator*(const Eigen::Vector3f& point) const { return rotation * point + translation; }
+  /// The transform that applies `other` first.
   FOOTHOLD_HD SE3 operator*(const SE3& other) const { return {rotation * other.rotation, rotation * other.translation + translation}; }
+  /// The transform that undoes this one.
   FOOTHOLD_HD SE3 inverse() const { return {rotation.transpose(), -(rotation.transpose() * translation)}; }
 };
 static_assert(sizeof(SE3) == 48, "SE3 is passed to kernels by value");

@@ -24,8 +24,8 @@ namespace foothold {
 
 /// The closed interval of values allowed for a number.
 struct Range {
-  double low = 0.0;
-  double high = 0.0;
+  double low = 0.0;   ///< the least allowed value
+  double high = 0.0;  ///< the greatest allowed value
 };
 
 /// One field of a settings struct, as text.

@@ -27,8 +27,8 @@ ConfidenceSample confidence_sample(const TestRecord& test, bool findable);
 
 /// What accepting every answer from some confidence on leads to.
 struct AcceptancePoint {
-  double threshold = 0.0;
-  int num_accepted = 0;
+  double threshold = 0.0;          ///< the confidence from which answers are accepted
+  int num_accepted = 0;            ///< answers at or above the threshold
   int num_false_accepts = 0;       ///< accepted, but not right
   double recall = 0.0;             ///< accepted and found, of the findable samples
   double false_accept_rate = 0.0;  ///< accepted but not right, of all samples
@@ -36,19 +36,19 @@ struct AcceptancePoint {
 
 /// Answers of about equal confidence.
 struct CalibrationBin {
-  double low = 0.0;  ///< confidences in [low, high); the last bin holds 1 too
-  double high = 0.0;
-  int num_answers = 0;
-  int num_right = 0;
+  double low = 0.0;              ///< confidences in [low, high); the last bin holds 1 too
+  double high = 0.0;             ///< the upper end of the interval
+  int num_answers = 0;           ///< with a confidence in the interval
+  int num_right = 0;             ///< of these, within kWrongThreshold
   double mean_confidence = 0.0;  ///< NaN without answers
   Interval right_95;             ///< Wilson interval of num_right / num_answers
 };
 
 /// What the confidences of a set of samples are worth.
 struct ConfidenceReport {
-  int num_samples = 0;
-  int num_findable = 0;
-  int num_answers = 0;
+  int num_samples = 0;   ///< questions, answered or not
+  int num_findable = 0;  ///< questions whose place had been learnt
+  int num_answers = 0;   ///< questions that were answered
   /// From the strictest threshold, which accepts nothing, to the laxest; one point for each confidence that occurs.
   std::vector<AcceptancePoint> curve;
   std::vector<CalibrationBin> calibration;  ///< ten bins of equal width

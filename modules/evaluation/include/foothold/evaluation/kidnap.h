@@ -29,15 +29,15 @@ const char* to_string(KidnapKind kind);
 
 /// A break in the camera's path.
 struct Kidnap {
-  KidnapKind kind = KidnapKind::kRemoved;
-  int from = 0;         ///< the frame that would have come next
-  int num_covered = 0;  ///< frames from there on that are shown with the lens covered
-  int to = 0;           ///< the frame shown after that
+  KidnapKind kind = KidnapKind::kRemoved;  ///< what happens to the camera
+  int from = 0;                            ///< the frame that would have come next
+  int num_covered = 0;                     ///< frames from there on that are shown with the lens covered
+  int to = 0;                              ///< the frame shown after that
 };
 
 /// A frame to show.
 struct PlayStep {
-  int frame = 0;
+  int frame = 0;         ///< index in the recording
   bool covered = false;  ///< with the lens covered: no depth, black colour
   int kidnap = -1;       ///< index of the kidnap whose judged frames begin here, or -1
 };
@@ -46,16 +46,17 @@ struct PlayStep {
 struct KidnapOptions {
   int num_removed = 0;      ///< stretches to leave out
   int removed_length = 60;  ///< frames of each
-  int num_teleports = 0;
+  int num_teleports = 0;    ///< jumps back, each with a return
   int teleport_gap = 60;  ///< a teleport leads at least so many frames back; at least a quarter of a recording shorter than four times that
-  int num_blackouts = 0;
+  int num_blackouts = 0;  ///< stretches with the lens covered
   int blackout_length = 30;  ///< frames of each
   int num_leaps = 0;         ///< independent ones only: in one run, what was mapped ahead would be known for good
   int leap_gap = 40;         ///< a leap leads at least so many frames ahead
   int num_judged = 30;       ///< frames after a kidnap by which it is judged
   int num_first = 100;       ///< frames before the first kidnap; a quarter of a recording that is shorter than four times that
-  std::uint64_t seed = 42;
+  std::uint64_t seed = 42;   ///< of the places of the kidnaps
 
+  /// All kidnaps, without the returns from teleports.
   int num_kidnaps() const { return num_removed + num_teleports + num_blackouts + num_leaps; }
   /// Throws InvalidSettings naming the field, its value and what is allowed.
   void validate() const;
@@ -64,7 +65,7 @@ struct KidnapOptions {
 /// A run with all kidnaps in it.
 struct KidnapPlan {
   std::vector<Kidnap> kidnaps;  ///< as met; each teleport is followed by its return
-  std::vector<PlayStep> steps;
+  std::vector<PlayStep> steps;  ///< what to show, in order
 };
 
 /// Plays a recording once, with all kidnaps at random places, none within the judged frames of another. After a teleport, the judged frames
@@ -85,7 +86,7 @@ struct PlayedFrame {
   std::optional<SE3> world_from_camera;  ///< the pose it gave; empty while lost
   bool believed = false;                 ///< it judged the pose good
   bool fused = false;                    ///< it changed its map with it
-  double duration_ms = 0.0;
+  double duration_ms = 0.0;              ///< the system's time for the frame [ms]
 };
 
 /// Poses nearer than this to the reference are right: the limits at which a tracker started there converges.
@@ -93,14 +94,14 @@ inline constexpr PoseThreshold kResumedThreshold = kWrongThreshold;
 
 /// How a kidnap ended.
 struct KidnapOutcome {
-  int num_judged = 0;         ///< frames with a reference; without any, nothing can be said
-  bool recovered = false;     ///< a right and believed pose came within the judged frames
-  bool right_at_end = false;  ///< the last judged frame has a right pose
-  int num_frames = 0;         ///< to recovery, that of recovery included: 1 is at once; 0 without one
-  double duration_ms = 0.0;   ///< the system's time for these frames
-  int num_wrong = 0;          ///< frames with a wrong pose, believed or not
-  int num_wrong_believed = 0;
-  int num_wrong_fused = 0;
+  int num_judged = 0;          ///< frames with a reference; without any, nothing can be said
+  bool recovered = false;      ///< a right and believed pose came within the judged frames
+  bool right_at_end = false;   ///< the last judged frame has a right pose
+  int num_frames = 0;          ///< to recovery, that of recovery included: 1 is at once; 0 without one
+  double duration_ms = 0.0;    ///< the system's time for these frames
+  int num_wrong = 0;           ///< frames with a wrong pose, believed or not
+  int num_wrong_believed = 0;  ///< wrong frames that the system judged good
+  int num_wrong_fused = 0;     ///< wrong frames that changed the map
 };
 
 /// Judges the frames after a kidnap.
@@ -111,17 +112,17 @@ KidnapOutcome judge_kidnap(Span<const PlayedFrame> played, Span<const std::optio
 
 /// Outcomes of one kind of kidnap, of those that could be judged.
 struct KidnapSummary {
-  int num_kidnaps = 0;
-  int num_recovered = 0;
-  int num_right_at_end = 0;
+  int num_kidnaps = 0;                      ///< that could be judged
+  int num_recovered = 0;                    ///< with a right and believed pose within the judged frames
+  int num_right_at_end = 0;                 ///< with a right pose at the last judged frame
   int num_kidnaps_with_wrong = 0;           ///< with a wrong pose at least once
   int num_kidnaps_with_wrong_believed = 0;  ///< resumed wrongly at least once
   int num_wrong = 0;                        ///< frames, as are the two below
-  int num_wrong_believed = 0;
-  int num_wrong_fused = 0;
-  double median_frames = 0.0;  ///< to recovery, over the recovered; NaN without one, as are the two below
-  double p95_frames = 0.0;
-  double median_ms = 0.0;
+  int num_wrong_believed = 0;               ///< wrong frames that the system judged good
+  int num_wrong_fused = 0;                  ///< wrong frames that changed the map
+  double median_frames = 0.0;               ///< to recovery, over the recovered; NaN without one, as are the two below
+  double p95_frames = 0.0;                  ///< the 95th percentile of these frames
+  double median_ms = 0.0;                   ///< the median of the system's time to recovery [ms]
 };
 
 /// Counts outcomes. Those without judged frames are left out.

@@ -9,13 +9,13 @@ namespace foothold {
 
 /// Distances from the vertices of one mesh to the surface of another. Vertices farther than the limit have no counterpart there.
 struct MeshDistance {
-  int num_vertices = 0;
-  int num_near = 0;     ///< with a counterpart; the distances below are of these
-  int num_within = 0;   ///< within the tolerance
-  double mean_m = 0.0;  ///< NaN without near vertices, as are those below
-  double rmse_m = 0.0;
-  double median_m = 0.0;
-  double p95_m = 0.0;
+  int num_vertices = 0;   ///< of the first mesh
+  int num_near = 0;       ///< with a counterpart; the distances below are of these
+  int num_within = 0;     ///< within the tolerance
+  double mean_m = 0.0;    ///< NaN without near vertices, as are those below
+  double rmse_m = 0.0;    ///< root of the mean square [m]
+  double median_m = 0.0;  ///< the median [m]
+  double p95_m = 0.0;     ///< the 95th percentile [m]
 };
 
 /// Measures the distance of each vertex of `measured` to the nearest point of the triangles of `reference`.

@@ -17,9 +17,9 @@ struct NoveltyBin {
   /// Some training pose is within these limits of the tested one, and within none of the bins before; not used by the last bin.
   PoseThreshold limit;
   bool is_rest = false;  ///< the last bin: beyond every limit
-  int num_frames = 0;
-  int num_found = 0;   ///< within kFoundThreshold
-  Interval recall_95;  ///< Wilson interval of num_found / num_frames
+  int num_frames = 0;    ///< tested frames in the bin
+  int num_found = 0;     ///< within kFoundThreshold
+  Interval recall_95;    ///< Wilson interval of num_found / num_frames
 
   /// Such as "5cm_5deg" or "rest".
   std::string key() const { return is_rest ? "rest" : limit.key(); }

@@ -12,8 +12,8 @@ namespace foothold {
 
 /// The distance between two poses of the depth camera.
 struct PoseError {
-  double translation_m = 0.0;
-  double rotation_rad = 0.0;
+  double translation_m = 0.0;  ///< between the camera's centres [m]
+  double rotation_rad = 0.0;   ///< the angle of the rotation between the two [rad]
 };
 
 /// The error of an estimate against the true pose.
@@ -21,9 +21,10 @@ PoseError pose_error(const SE3& world_from_camera, const SE3& world_from_camera_
 
 /// A pair of limits; a pose counts if it keeps both, each inclusive.
 struct PoseThreshold {
-  double translation_m = 0.05;
-  double rotation_deg = 5.0;
+  double translation_m = 0.05;  ///< greatest distance [m]
+  double rotation_deg = 5.0;    ///< greatest angle [deg]
 
+  /// Whether an error keeps both limits.
   bool contains(const PoseError& error) const;
   /// The key used in tables and files, such as "5cm_5deg".
   std::string key() const;

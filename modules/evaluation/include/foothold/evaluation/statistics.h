@@ -9,8 +9,8 @@ namespace foothold {
 
 /// An interval of values.
 struct Interval {
-  double low = 0.0;
-  double high = 0.0;
+  double low = 0.0;   ///< the lower end
+  double high = 0.0;  ///< the upper end
 };
 
 /// The Wilson score interval of a proportion, sound for few trials and for proportions near 0 and 1; [0, 1] without trials.
@@ -27,8 +27,8 @@ double roc_area(const std::vector<double>& scores, const std::vector<bool>& righ
 
 /// The median and the 95th percentile of a set of numbers; NaN for an empty set.
 struct Spread {
-  double median = 0.0;
-  double p95 = 0.0;
+  double median = 0.0;  ///< the value that half of the numbers do not exceed
+  double p95 = 0.0;     ///< the value that 95 of 100 do not exceed
 };
 
 /// The median and 95th percentile of a list; NaN for an empty one.

@@ -16,10 +16,10 @@ enum class TrajectoryAlignment {
 
 /// The absolute trajectory error (ATE): distances between positions of the same frame [m].
 struct AbsoluteTrajectoryError {
-  double rmse_m = 0.0;
-  double mean_m = 0.0;
-  double median_m = 0.0;
-  double max_m = 0.0;
+  double rmse_m = 0.0;    ///< root of the mean square [m]
+  double mean_m = 0.0;    ///< the mean [m]
+  double median_m = 0.0;  ///< the median [m]
+  double max_m = 0.0;     ///< the greatest [m]
   /// The transform laid over the estimate; the identity without alignment.
   SE3 truth_from_estimate;
 };
@@ -30,9 +30,9 @@ AbsoluteTrajectoryError absolute_trajectory_error(Span<const SE3> estimated, Spa
 
 /// The relative pose error (RPE): drift over a fixed number of frames.
 struct RelativePoseError {
-  double translation_rmse_m = 0.0;
-  double rotation_rmse_rad = 0.0;
-  int num_pairs = 0;
+  double translation_rmse_m = 0.0;  ///< root of the mean square of the distances [m]
+  double rotation_rmse_rad = 0.0;   ///< root of the mean square of the angles [rad]
+  int num_pairs = 0;                ///< pairs of frames that were compared
 };
 
 /// Compares the motion from frame i to frame i + delta. Both errors are 0 when the trajectory is no longer than delta.

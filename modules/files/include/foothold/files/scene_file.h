@@ -31,14 +31,14 @@ std::vector<SettingText> scene_settings(const Settings& settings) {
 
 /// Something that belongs to a scene and can be written to a stream.
 struct SavedPart {
-  std::string name;  ///< 1 to 64 characters
-  const Persistent* part = nullptr;
+  std::string name;                  ///< 1 to 64 characters
+  const Persistent* part = nullptr;  ///< what is written; not owned
 };
 
 /// Something that receives what was saved under its name.
 struct LoadedPart {
-  std::string name;
-  Persistent* part = nullptr;
+  std::string name;            ///< the name under which it was saved
+  Persistent* part = nullptr;  ///< what reads it; not owned
 };
 
 /// Writes a scene. @throws FileError if a part cannot be written.

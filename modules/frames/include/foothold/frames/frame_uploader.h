@@ -18,6 +18,7 @@ namespace foothold {
 /// Context::wait_for() twice: the worker's for the uploader's before each frame is used, the uploader's for the worker's before the next.
 class FrameUploader {
  public:
+  /// Uploads to the context's memory, on its stream.
   explicit FrameUploader(const Context& context);
 
   /// @return The frame in the context's memory, valid for work on the context until the next call. The frame itself if it lives there, or

@@ -23,6 +23,7 @@ class RawSequenceWriter {
   void write(const RgbdFrame& frame);
   /// @pre At least one frame was written. @throws FileError
   void finish();
+  /// Frames written so far.
   int num_frames() const { return num_frames_; }
 
  private:

@@ -27,19 +27,19 @@ inline constexpr float kMostDeviations = 6.0F;
 struct ClassifierModel {
   /// A feature: its name, what it is normalised by, and the weights of its kernel map.
   struct Feature {
-    std::string name;
-    float mean = 0.0F;
-    float deviation = 1.0F;  ///< positive
-    float weights[kKernelMapSize] = {};
+    std::string name;                    ///< as the caller names its values
+    float mean = 0.0F;                   ///< of the training values
+    float deviation = 1.0F;              ///< positive
+    float weights[kKernelMapSize] = {};  ///< one for each value of the kernel map
   };
 
-  std::string name;
+  std::string name;                     ///< what it decides
   std::vector<std::string> provenance;  ///< what it was trained on, by what, when: free text, line by line
-  std::vector<Feature> features;
-  float bias = 0.0F;
+  std::vector<Feature> features;        ///< in the order of the values
+  float bias = 0.0F;                    ///< added to the weighted sum: the score of an event
   /// P(positive) = 1 / (1 + exp(-(probability_scale * score + probability_offset))). Reference: [Platt1999].
   float probability_scale = 1.0F;
-  float probability_offset = 0.0F;
+  float probability_offset = 0.0F;  ///< as above
   /// Scores above it are good.
   float good_threshold = 0.0F;
   /// Scores above it, but not good, are poor; below, failed.

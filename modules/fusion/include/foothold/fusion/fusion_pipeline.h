@@ -15,20 +15,21 @@ namespace foothold {
 
 /// Settings of a FusionPipeline and of its parts.
 struct FusionSettings {
-  TsdfSettings volume;
-  RecoverySettings recovery;
-  PoseCandidatesSettings candidates;
-  PoseRefinerSettings refiner;
+  TsdfSettings volume;                ///< of the map
+  RecoverySettings recovery;          ///< of what happens when tracking is lost
+  PoseCandidatesSettings candidates;  ///< of the poses that a lost camera carries along
+  PoseRefinerSettings refiner;        ///< of the refinement of proposals
   /// The map is rendered for tracking in images reduced by this divisor.
   int render_divisor = 4;
   /// A frame that moved further than this since the last counts as poorly tracked at best: ICP may have snapped to another place.
   float max_motion_m = 0.2F;
-  float max_motion_deg = 15.0F;
+  float max_motion_deg = 15.0F;  ///< likewise [deg]
   /// A frame whose view the acceptance classifier gives less than this probability counts as poorly tracked at best. The classifier's
   /// probabilities hold if right and wrong poses are equally frequent; tracked ones are nearly always right, so that much less than a half
   /// is still good.
   float min_view_probability = 0.2F;
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&FusionSettings::volume, "volume");
@@ -43,6 +44,7 @@ struct FusionSettings {
     v(&FusionSettings::min_view_probability, "min_view_probability",
       "Probability below which a view is doubted (T: fusion_benchmark, teddy).", Range{0.0, 1.0});
   }
+  /// Throws InvalidSettings naming the field, its value and its range.
   void validate() const;
 };
 
@@ -50,24 +52,24 @@ struct FusionSettings {
 struct FusionFrameResult {
   RecoveryState state = RecoveryState::kTracking;      ///< after the frame
   TrackingQuality quality = TrackingQuality::kFailed;  ///< of tracking, or of the pose after relocalisation
-  float quality_score = 0.0F;
+  float quality_score = 0.0F;                          ///< of the tracking classifier; higher is better
   /// The camera's pose; empty while lost.
   std::optional<SE3> world_from_camera;
   /// Probability that the pose is right; 0 while lost.
   float confidence = 0.0F;
-  bool relocaliser_asked = false;
-  bool relocalised = false;  ///< the pose is the relocaliser's, refined
-  bool fused = false;
+  bool relocaliser_asked = false;      ///< the relocaliser was asked for proposals
+  bool relocalised = false;            ///< the pose is the relocaliser's, refined
+  bool fused = false;                  ///< the frame changed the map
   int num_blocks_refused = 0;          ///< by the map when the frame was fused, for it was full
   float out_of_range_fraction = 0.0F;  ///< of the frame's depth, what the map's limits leave out; filled in by Reconstruction
-  bool trained = false;
-  ViewAgreement agreement;
-  double track_ms = 0.0;
-  double relocalise_ms = 0.0;
-  double fuse_ms = 0.0;
-  double train_ms = 0.0;
-  double render_ms = 0.0;
-  double total_ms = 0.0;
+  bool trained = false;                ///< the relocaliser learnt the frame
+  ViewAgreement agreement;             ///< of the frame with the map at the pose, where the two were compared
+  double track_ms = 0.0;               ///< of tracking [ms]
+  double relocalise_ms = 0.0;          ///< of finding and refining proposals [ms]
+  double fuse_ms = 0.0;                ///< of changing the map [ms]
+  double train_ms = 0.0;               ///< of the relocaliser's learning [ms]
+  double render_ms = 0.0;              ///< of rendering the map [ms]
+  double total_ms = 0.0;               ///< of the whole frame [ms]
 };
 
 /// Drives the parts as RecoveryPolicy says. While lost, the map and the relocaliser never change; frames are tracked against each other, so
@@ -85,7 +87,9 @@ class FusionPipeline : public Persistent {
   /// Copies the map, the pose and the state of recovery, to go on with another relocaliser.
   FusionPipeline(const FusionPipeline& other, Relocaliser* relocaliser);
   ~FusionPipeline() override;
+  /// What was moved from may only be assigned to or destroyed.
   FusionPipeline(FusionPipeline&&) noexcept;
+  /// What was moved from may only be assigned to or destroyed.
   FusionPipeline& operator=(FusionPipeline&&) noexcept;
 
   /// Sets the pose of the first frame; the identity otherwise. @pre No frame was processed since construction or reset().
@@ -108,10 +112,13 @@ class FusionPipeline : public Persistent {
   /// nothing changes. @throws FileError for a damaged stream, another version, or a map made with other settings of the volume.
   void load(std::istream& stream) override;
 
+  /// The map.
   const TsdfVolume& volume() const { return volume_; }
   /// The rendering that the next frame is tracked against, with colour; empty before the first frame.
   const SurfaceMap& rendering() const { return rendering_; }
+  /// Tracking, lost or settling, after the last frame.
   RecoveryState state() const { return policy_.state(); }
+  /// As given to the constructor.
   const FusionSettings& settings() const { return settings_; }
   /// Of images that are smaller, nothing would be left to render.
   int least_side_px() const { return std::max(settings_.render_divisor, settings_.refiner.coarse_divisor); }

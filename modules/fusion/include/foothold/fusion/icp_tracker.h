@@ -14,8 +14,8 @@ namespace foothold {
 
 /// The levels of the pyramid that alignment goes through, from coarse to fine. Level l is the image halved l times.
 struct IcpLevels {
-  int coarsest = 3;
-  int finest = 2;
+  int coarsest = 3;  ///< the level that alignment begins with
+  int finest = 2;    ///< the level that it ends with; 0 is the whole image
 
   /// Two levels, of which the finest has the pixels of an image reduced by a divisor.
   static IcpLevels for_divisor(int divisor);
@@ -39,11 +39,11 @@ struct TrackingMeasures {
 
 /// A tracked pose.
 struct TrackingResult {
-  SE3 world_from_camera;
-  TrackingMeasures measures;
-  int num_inliers = 0;
-  int num_valid = 0;   ///< pixels with depth, at the finest level
-  int num_mapped = 0;  ///< of these, those that land on rendered surface whose normal is known
+  SE3 world_from_camera;      ///< the pose after alignment
+  TrackingMeasures measures;  ///< what the grade of tracking rests on
+  int num_inliers = 0;        ///< pixels that found a partner, at the finest level
+  int num_valid = 0;          ///< pixels with depth, at the finest level
+  int num_mapped = 0;         ///< of these, those that land on rendered surface whose normal is known
   /// The translation that the surfaces resist least, rotation being free to follow: along a table top, a corridor. Unit length, in the
   /// world, either of its two signs; zero unless well_posed.
   Eigen::Vector3f loosest_world = Eigen::Vector3f::Zero();
@@ -63,7 +63,9 @@ class IcpTracker {
   /// @pre 0 <= levels.finest <= levels.coarsest <= 6.
   explicit IcpTracker(const Context& context, const IcpLevels& levels = {}, const DepthRange& range = TsdfSettings{}.depth_range());
   ~IcpTracker();
+  /// What was moved from may only be assigned to or destroyed.
   IcpTracker(IcpTracker&&) noexcept;
+  /// What was moved from may only be assigned to or destroyed.
   IcpTracker& operator=(IcpTracker&&) noexcept;
 
   /// Prepares the pyramid of a frame's depth; track() may then be called for several models or guesses.

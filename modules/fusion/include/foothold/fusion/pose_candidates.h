@@ -23,6 +23,7 @@ struct PoseCandidatesSettings {
   /// Frames after which a pose that was not seen again is dropped.
   int max_frames_unseen = 15;
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&PoseCandidatesSettings::max_candidates, "max_candidates", "Poses that a lost camera carries along (T: replay_sequence, rooms).",
@@ -30,6 +31,7 @@ struct PoseCandidatesSettings {
     v(&PoseCandidatesSettings::max_frames_unseen, "max_frames_unseen",
       "Frames after which one of them that was not seen again is dropped (T: replay_sequence, rooms).", Range{1, 100000});
   }
+  /// Throws InvalidSettings naming the field, its value and its range.
   void validate() const { validate_settings(*this); }
 };
 
@@ -44,7 +46,9 @@ class PoseCandidates {
   /// @throws InvalidSettings
   explicit PoseCandidates(const PoseCandidatesSettings& settings = {}) : settings_(settings) { settings.validate(); }
 
+  /// Whether no pose is carried along.
   bool empty() const { return candidates_.empty(); }
+  /// Forgets all poses.
   void clear() { candidates_.clear(); }
 
   /// Moves all with the camera. @param previous_from_current  The camera's motion since the last frame.

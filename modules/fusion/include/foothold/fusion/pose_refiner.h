@@ -35,6 +35,7 @@ struct PoseRefinerSettings {
   /// a view half of which is unmapped slides along a table until all of it is mapped.
   float slide_reach_m = 1.2F;
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&PoseRefinerSettings::max_candidates, "max_candidates", "Proposals that are looked at (R).", Range{1, 1000});
@@ -53,19 +54,20 @@ struct PoseRefinerSettings {
       "How far from the best pose, to both sides, others are tried [m]; 0 for none (T: relocalisation_benchmark, kitchen).",
       Range{0.0, 10.0});
   }
+  /// Throws InvalidSettings naming the field, its value and its range.
   void validate() const;
 };
 
 /// A proposal after refinement.
 struct RefinedPose {
-  SE3 world_from_camera;
+  SE3 world_from_camera;      ///< the pose after refinement
   float score = 0.0F;         ///< of the acceptance classifier, which sees frame and map alone; higher is better
   float probability = 0.0F;   ///< calibrated, of the pose being right, given the score and the relocaliser's confidence
   bool contradicted = false;  ///< something solid that the map shows is not there: a place that looks alike, or one that has changed
   bool accepted = false;      ///< probable enough, unambiguous and not contradicted
-  TrackingMeasures measures;
-  ViewAgreement agreement;
-  int candidate = 0;  ///< index of the proposal
+  TrackingMeasures measures;  ///< what alignment measured
+  ViewAgreement agreement;    ///< of the frame with the map there
+  int candidate = 0;          ///< index of the proposal
   /// Of TrackingResult: the direction in which alignment may have gone astray.
   Eigen::Vector3f loosest_world = Eigen::Vector3f::Zero();
 };

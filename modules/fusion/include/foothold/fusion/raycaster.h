@@ -14,10 +14,10 @@ namespace foothold {
 
 /// A virtual camera.
 struct RenderCamera {
-  Intrinsics intrinsics;
-  int width = 0;
-  int height = 0;
-  SE3 world_from_camera;
+  Intrinsics intrinsics;  ///< of the image that is rendered [px]
+  int width = 0;          ///< columns
+  int height = 0;         ///< rows
+  SE3 world_from_camera;  ///< its pose
 
   /// The same camera with both sides of its image divided by `divisor`, rounded down.
   RenderCamera reduced(int divisor) const {
@@ -28,16 +28,18 @@ struct RenderCamera {
 /// One pixel of a rendered surface: a point and its normal in the frame of the rendering camera. 16 bytes.
 struct SurfacePixel {
   float normal_x = 0.0F;  ///< unit length, towards the camera; all zero where it is unknown
-  float normal_y = 0.0F;
-  float normal_z = 0.0F;
-  float depth_m = 0.0F;  ///< z along the optical axis; 0 where no surface was hit
+  float normal_y = 0.0F;  ///< likewise
+  float normal_z = 0.0F;  ///< likewise
+  float depth_m = 0.0F;   ///< z along the optical axis; 0 where no surface was hit
 
+  /// Whether the normal is known.
   FOOTHOLD_HD bool has_normal() const { return normal_x != 0.0F || normal_y != 0.0F || normal_z != 0.0F; }
 };
 static_assert(sizeof(SurfacePixel) == 16, "surface maps are shared with kernels");
 
 /// A rendered surface, or several from different poses of one camera, in the memory of the context that rendered them.
 struct SurfaceMap {
+  /// An empty rendering in the given place.
   explicit SurfaceMap(const Memory& memory = {}) : world_from_cameras(memory), pixels(memory), colours(memory) {}
 
   /// Of several renderings only the camera counts, not its pose.
@@ -49,7 +51,9 @@ struct SurfaceMap {
   /// As many as pixels if colour was asked for, else none; black where no surface was hit.
   Array<Rgb8> colours;
 
+  /// Whether nothing was rendered.
   bool empty() const { return pixels.empty(); }
+  /// Poses that were rendered from.
   std::size_t num_renderings() const { return world_from_cameras.size(); }
 };
 
@@ -67,7 +71,9 @@ class Raycaster {
 
   explicit Raycaster(const Context& context);
   ~Raycaster();
+  /// What was moved from may only be assigned to or destroyed.
   Raycaster(Raycaster&&) noexcept;
+  /// What was moved from may only be assigned to or destroyed.
   Raycaster& operator=(Raycaster&&) noexcept;
 
   /// Renders `volume` into `map`, whose memory is reused. @pre the volume and the map live in the context's memory; the image is not empty.

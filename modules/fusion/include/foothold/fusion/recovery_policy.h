@@ -32,9 +32,9 @@ enum class PoseSource { kNone, kTracker, kRelocaliser };
 /// What to do with a frame.
 struct RecoveryDecision {
   RecoveryState state = RecoveryState::kLost;  ///< after the frame
-  PoseSource pose = PoseSource::kNone;
-  bool fuse = false;   ///< into the map
-  bool train = false;  ///< the relocaliser
+  PoseSource pose = PoseSource::kNone;         ///< whose pose to go on with
+  bool fuse = false;                           ///< into the map
+  bool train = false;                          ///< the relocaliser
 };
 
 /// Views from new places, all good, that a recovery must be confirmed by before the map may change: what looks alike from one place hardly
@@ -53,6 +53,7 @@ struct RecoverySettings {
   /// While settling, the relocaliser is asked for a second opinion every so many frames; 0 for never.
   int confirm_interval = 3;
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&RecoverySettings::settle_frames, "settle_frames", "Good frames after a recovery before the map may change (R).", Range{0, 1000});
@@ -63,6 +64,7 @@ struct RecoverySettings {
     v(&RecoverySettings::confirm_interval, "confirm_interval",
       "Frames between second opinions while settling; 0 for none (T: replay_sequence, kitchen).", Range{0, 1000});
   }
+  /// Throws InvalidSettings naming the field, its value and its range.
   void validate() const { validate_settings(*this); }
 };
 
@@ -85,6 +87,7 @@ class RecoveryPolicy {
   /// @throws InvalidSettings
   explicit RecoveryPolicy(const RecoverySettings& settings = {}) : settings_(settings) { settings.validate(); }
 
+  /// The state after the last frame.
   RecoveryState state() const { return state_; }
   /// Whether the pose is a recovered one that too few views have confirmed yet.
   bool is_unconfirmed() const { return state_ == RecoveryState::kSettling && views_left_ > 0; }

@@ -27,9 +27,9 @@ std::array<const char*, 4> quality_feature_names();
 
 /// A quality and what it rests on.
 struct TrackingGrade {
-  TrackingQuality quality = TrackingQuality::kFailed;
-  float score = 0.0F;
-  float probability = 0.0F;  ///< calibrated, of the pose being right
+  TrackingQuality quality = TrackingQuality::kFailed;  ///< good, poor or failed
+  float score = 0.0F;                                  ///< of the classifier; higher is better
+  float probability = 0.0F;                            ///< calibrated, of the pose being right
 };
 
 /// Grades tracking by a support vector machine over the tracker's own measures; an ill-posed alignment has failed outright.

@@ -24,9 +24,10 @@ struct VoxelBlock;  // 8 x 8 x 8 voxels; private
 
 /// The depth readings that count [m]; nearer and farther ones are ignored.
 struct DepthRange {
-  float min_m = 0.0F;
-  float max_m = 0.0F;
+  float min_m = 0.0F;  ///< the least [m]
+  float max_m = 0.0F;  ///< the greatest [m]
 
+  /// Whether a reading counts; NaN does not.
   FOOTHOLD_HD bool holds(float depth_m) const { return depth_m >= min_m && depth_m <= max_m; }
 };
 
@@ -47,6 +48,7 @@ struct TsdfSettings {
   /// Blocks held at most; frames that need more are still fused into those that exist.
   int max_blocks = 1 << 20;
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&TsdfSettings::voxel_size_m, "voxel_size_m", "Distance between voxels [m] (R).", Range{0.001, 0.1});
@@ -59,6 +61,7 @@ struct TsdfSettings {
       Range{1, 16});
     v(&TsdfSettings::max_blocks, "max_blocks", "Blocks of 8 x 8 x 8 voxels held at most, 3 KB each.", Range{1, 1 << 24});
   }
+  /// The readings that are fused.
   DepthRange depth_range() const { return {min_depth_m, max_depth_m}; }
   /// Largest coordinate that a map holds, along each axis [m]: blocks are numbered with 21 bits.
   float reach_m() const;
@@ -68,7 +71,7 @@ struct TsdfSettings {
 
 /// What one frame did to the map.
 struct IntegrationStats {
-  int num_new_blocks = 0;
+  int num_new_blocks = 0;      ///< added to the map
   int num_blocks_refused = 0;  ///< wanted, but max_blocks was reached
 };
 
@@ -86,11 +89,15 @@ class TsdfVolume : public Persistent {
   /// @throws InvalidSettings
   TsdfVolume(const Context& context, const TsdfSettings& settings);
   ~TsdfVolume() override;
+  /// Copies the map, on the same device.
   TsdfVolume(const TsdfVolume& other);
   /// Copies a map to another context's device.
   TsdfVolume(const TsdfVolume& other, const Context& context);
+  /// What was moved from may only be assigned to or destroyed.
   TsdfVolume(TsdfVolume&& other) noexcept;
+  /// Copies the map, on its device.
   TsdfVolume& operator=(const TsdfVolume& other);
+  /// What was moved from may only be assigned to or destroyed.
   TsdfVolume& operator=(TsdfVolume&& other) noexcept;
 
   /// Averages a frame into the map, growing it along the observed surface.
@@ -107,8 +114,11 @@ class TsdfVolume : public Persistent {
   /// Reads a map, its settings included. On failure the former map stays. @throws FileError
   void load(std::istream& stream) override;
 
+  /// The device, threads and memory that the map works with.
   const Context& context() const { return context_; }
+  /// As given to the constructor, or as load() read them.
   const TsdfSettings& settings() const { return settings_; }
+  /// Blocks of 8 x 8 x 8 voxels in the map.
   int num_blocks() const { return num_blocks_; }
   /// Memory held for the map [bytes].
   std::size_t state_bytes() const;

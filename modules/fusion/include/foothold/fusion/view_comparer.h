@@ -40,7 +40,9 @@ class ViewComparer {
 
   explicit ViewComparer(const Context& context, const DepthRange& range = TsdfSettings{}.depth_range());
   ~ViewComparer();
+  /// What was moved from may only be assigned to or destroyed.
   ViewComparer(ViewComparer&&) noexcept;
+  /// What was moved from may only be assigned to or destroyed.
   ViewComparer& operator=(ViewComparer&&) noexcept;
 
   /// Takes depth, and for each pixel its colour, from a frame. @pre describe_frame_error(frame) is empty; images live in the context's

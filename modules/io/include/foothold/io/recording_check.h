@@ -37,7 +37,7 @@ struct RecordingCheck {
   double better_depth_units_per_m = 0.0;
   /// What else makes more agree by far, in words: another focal length, another scale of depth, poses of another time.
   std::string better_otherwise;
-  double better_agreement = 0.0;
+  double better_agreement = 0.0;  ///< the share that agrees under what is better, in [0, 1]
 
   /// What a user should be told, a sentence or two each.
   std::vector<std::string> warnings;

@@ -33,9 +33,9 @@ struct SequenceOptions {
 
 /// A half-open range of frames.
 struct FrameRange {
-  static constexpr int kToTheEnd = std::numeric_limits<int>::max();
-  int begin = 0;
-  int end = kToTheEnd;
+  static constexpr int kToTheEnd = std::numeric_limits<int>::max();  ///< the end of a range that goes to the last frame
+  int begin = 0;                                                     ///< the first frame
+  int end = kToTheEnd;                                               ///< behind the last frame
 };
 
 /// Parses "A:B", "A:", ":B" or ":". @throws InvalidSettings if the text is anything else, or A > B.

@@ -29,6 +29,7 @@ class SevenScenesWriter {
   /// @throws FileError, after which the recording holds the frames before this one.
   void write(const RgbdFrame& frame);
 
+  /// Frames written so far.
   int num_frames() const { return static_cast<int>(times_s_.size()); }
 
   /// Writes timestamps.txt. A recording without it, as after a crash, plays at 30 frames a second. @throws FileError

@@ -12,8 +12,8 @@ namespace foothold {
 
 /// A pose and its time.
 struct StampedPose {
-  double timestamp_s = 0.0;
-  SE3 world_from_camera;
+  double timestamp_s = 0.0;  ///< when the camera was there [s]
+  SE3 world_from_camera;     ///< the pose
 };
 
 /// Reads lines of "timestamp tx ty tz qx qy qz qw", '#' beginning a comment.

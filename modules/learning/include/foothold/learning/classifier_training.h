@@ -15,11 +15,11 @@ namespace foothold {
 
 /// One event and what it was.
 struct ClassifierExample {
-  std::vector<float> values;
-  bool positive = false;
-  float distance_m = 0.0F;  ///< from the truth, where it is known: for those who look at the examples
-  float angle_deg = 0.0F;
-  int group = 0;  ///< the recording it comes from: examples of one are correlated, so cross-validation keeps them together
+  std::vector<float> values;  ///< one for each feature, in the order of their names
+  bool positive = false;      ///< what the classifier is to say
+  float distance_m = 0.0F;    ///< from the truth, where it is known: for those who look at the examples
+  float angle_deg = 0.0F;     ///< likewise [deg]
+  int group = 0;              ///< the recording it comes from: examples of one are correlated, so cross-validation keeps them together
 };
 
 /// How a classifier is trained.
@@ -33,6 +33,7 @@ struct ClassifierTrainingSettings {
   /// More examples are thinned out evenly.
   int max_examples = 20000;
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     using S = ClassifierTrainingSettings;
@@ -41,21 +42,22 @@ struct ClassifierTrainingSettings {
     v(&S::max_false_negatives, "max_false_negatives", "Part of the positives below the poor threshold.", Range{0.0, 1.0});
     v(&S::max_examples, "max_examples", "More examples are thinned out.", Range{10, 10000000});
   }
+  /// Throws InvalidSettings naming the field, its value and its range.
   void validate() const { validate_settings(*this); }
 };
 
 /// A point of the receiver operating characteristic.
 struct RocPoint {
-  double threshold = 0.0;
-  double false_positive_rate = 0.0;
-  double true_positive_rate = 0.0;
+  double threshold = 0.0;            ///< the score above which an event counts as positive
+  double false_positive_rate = 0.0;  ///< of the negative events, in [0, 1]
+  double true_positive_rate = 0.0;   ///< of the positive events, in [0, 1]
 };
 
 /// What cross-validation found: each group was scored by a classifier trained on the others.
 struct ClassifierReport {
-  int num_positive = 0;
-  int num_negative = 0;
-  double auc = 0.0;
+  int num_positive = 0;                   ///< events
+  int num_negative = 0;                   ///< events
+  double auc = 0.0;                       ///< the area under the curve below, in [0, 1]
   std::vector<RocPoint> roc;              ///< by falling threshold
   double true_positive_rate_good = 0.0;   ///< positives above the good threshold
   double false_positive_rate_good = 0.0;  ///< negatives above it

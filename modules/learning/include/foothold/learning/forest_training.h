@@ -38,12 +38,13 @@ struct ForestTrainingSettings {
   float agreement_weight = 0.0F;           ///< (P) none
   float covariance_floor_m = 0.01F;        ///< keeps the determinant of flat sets finite
   float covariance_prior_examples = 0.0F;  ///< (P) none
-  int frame_stride = 1;
-  int rolled_copies = 0;  ///< (P) none
-  float max_roll_deg = 180.0F;
-  float memory_limit_gb = 4.0F;
-  std::uint64_t seed = 42;
+  int frame_stride = 1;                    ///< every so-many-th frame is used
+  int rolled_copies = 0;                   ///< (P) none
+  float max_roll_deg = 180.0F;             ///< rolled copies are turned by up to so much either way [deg]
+  float memory_limit_gb = 4.0F;            ///< memory that training may use [GB]
+  std::uint64_t seed = 42;                 ///< of every random choice
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     using S = ForestTrainingSettings;
@@ -79,9 +80,11 @@ struct ForestTrainingSettings {
 
 /// What a training is doing.
 struct ForestTrainingProgress {
-  enum class Stage { kExamples, kGrowing } stage = Stage::kExamples;
-  std::int64_t done = 0;   ///< frames read, or levels grown
-  std::int64_t total = 0;  ///< of them
+  /// The parts of a training, in order.
+  enum class Stage { kExamples, kGrowing };
+  Stage stage = Stage::kExamples;  ///< reading examples, or growing trees
+  std::int64_t done = 0;           ///< frames read, or levels grown
+  std::int64_t total = 0;          ///< of them
 };
 
 /// How a training runs; none of it changes the branches.

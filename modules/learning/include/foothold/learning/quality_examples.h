@@ -27,19 +27,19 @@ struct QualityExampleSettings {
   /// So many times, evenly spread over the mapped recording, the frames that are never fused are also tried on what is mapped until then:
   /// those of them of which between these parts fall on the map.
   int partial_maps = 3;
-  float least_partial_overlap = 0.2F;
-  float most_partial_overlap = 0.8F;
+  float least_partial_overlap = 0.2F;  ///< the least of these parts, in [0, 1]
+  float most_partial_overlap = 0.8F;   ///< the greatest of these parts, in [0, 1]
   /// Starts tried for a frame.
   int starts_per_frame = 8;
   /// Further starts for a frame, those of mined_from poses somewhere in the map that look most like the frame after coarse alignment.
   int mined_starts = 2;
-  int mined_from = 12;
+  int mined_from = 12;  ///< poses that are looked at for them
   /// Part of the tried frames that are spoilt: by darkness, a covered lens or bursts of noise.
   float spoilt_part = 0.25F;
   /// Noise of the poses with which frames are fused, so that maps are as blurred as tracked ones; every third recording is fused without,
   /// and every third with twice as much.
   float map_noise_m = 0.003F;
-  float map_noise_deg = 0.15F;
+  float map_noise_deg = 0.15F;  ///< likewise [deg]
   /// Wear of the camera: shifted colour, distorted depth, exposure that adjusts itself, blur. 1 is an old Kinect; every third recording has
   /// none, and every third half as much.
   float wear = 1.0F;
@@ -47,15 +47,16 @@ struct QualityExampleSettings {
   float strangers = 0.35F;
   /// Slow drift of the poses with which frames are fused, likewise. Results may be off by as much more.
   float drift_m = 0.015F;
-  float drift_deg = 0.6F;
+  float drift_deg = 0.6F;  ///< likewise [deg]
   /// A result nearer to the truth than this is right.
   float right_m = 0.02F;
-  float right_deg = 1.5F;
+  float right_deg = 1.5F;  ///< likewise [deg]
   /// One further off than this is wrong; between the two it teaches nothing.
   float wrong_m = 0.05F;
-  float wrong_deg = 5.0F;
-  std::uint64_t seed = 42;
+  float wrong_deg = 5.0F;   ///< likewise [deg]
+  std::uint64_t seed = 42;  ///< of every random choice
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     using S = QualityExampleSettings;
@@ -82,6 +83,7 @@ struct QualityExampleSettings {
     v(&S::wrong_deg, "wrong_deg", "Results further off are wrong [deg].", Range{1e-3, 180.0});
     v(&S::seed, "seed", "Seed of the starts.", Range{0.0, 18446744073709551615.0});
   }
+  /// Throws InvalidSettings naming the field, its value and its range.
   void validate() const { validate_settings(*this); }
 };
 

@@ -17,19 +17,19 @@ namespace foothold {
 
 /// A mode that a sensor offers.
 struct OpenNIVideoMode {
-  int width = 0;
-  int height = 0;
-  int fps = 0;
+  int width = 0;       ///< columns [px]
+  int height = 0;      ///< rows [px]
+  int fps = 0;         ///< frames per second [Hz]
   std::string format;  ///< e.g. "depth 1 mm" or "RGB 8 bit"
 };
 
 /// A camera that OpenNI2 has found.
 struct OpenNIDeviceInfo {
-  std::string uri;  ///< changes when the camera is plugged into another port, and with PrimeSense's driver at every replug
-  std::string vendor;
-  std::string name;
-  int usb_vendor_id = 0;
-  int usb_product_id = 0;
+  std::string uri;         ///< changes when the camera is plugged into another port, and with PrimeSense's driver at every replug
+  std::string vendor;      ///< as the driver gives it
+  std::string name;        ///< as the driver gives it
+  int usb_vendor_id = 0;   ///< as the driver gives it
+  int usb_product_id = 0;  ///< as the driver gives it
   std::vector<OpenNIVideoMode> depth_modes;   ///< empty if the camera could not be opened to ask
   std::vector<OpenNIVideoMode> colour_modes;  ///< likewise
 };
@@ -46,24 +46,25 @@ std::string openni_no_device_advice();
 struct OpenNISettings {
   /// Empty for the first camera, an index such as "1", a URI as list_openni_devices() gives, or the path of an .oni recording.
   std::string device;
-  int width = 640;  ///< 640x480 at 30 Hz is the mode that every PrimeSense camera has
-  int height = 480;
-  int colour_width = 0;  ///< 0 for that of depth, as is the height's
-  int colour_height = 0;
-  int fps = 30;
+  int width = 640;        ///< 640x480 at 30 Hz is the mode that every PrimeSense camera has
+  int height = 480;       ///< of the depth image [px]
+  int colour_width = 0;   ///< 0 for that of depth, as is the height's
+  int colour_height = 0;  ///< of the colour image [px]
+  int fps = 30;           ///< frames per second of both images [Hz]
   /// Brings depth into the colour camera: "device" by the camera; "software" by Foothold, from the calibration; "off" not at all; "auto":
   /// the first of the former that is possible.
   std::string registration = "auto";
-  bool synchronise = true;  ///< asks the camera to expose depth and colour at the same time
-  bool lock_exposure = false;
-  bool lock_white_balance = false;
-  int settle_ms = 1000;         ///< automatic exposure and white balance run this long before they are locked
-  int pair_tolerance_ms = 0;    ///< depth and colour further apart are no pair; 0 means half a frame
-  int open_timeout_ms = 15000;  ///< a PrimeSense camera takes 1 to 3 s to open
-  int read_timeout_ms = 1000;
-  int silence_timeout_ms = 3000;  ///< without pairs for so long, the camera is closed and opened again
-  int close_timeout_ms = 5000;    ///< a driver that has not closed by then is left behind
+  bool synchronise = true;          ///< asks the camera to expose depth and colour at the same time
+  bool lock_exposure = false;       ///< keeps exposure as it is once it has settled
+  bool lock_white_balance = false;  ///< keeps white balance as it is once it has settled
+  int settle_ms = 1000;             ///< automatic exposure and white balance run this long before they are locked
+  int pair_tolerance_ms = 0;        ///< depth and colour further apart are no pair; 0 means half a frame
+  int open_timeout_ms = 15000;      ///< a PrimeSense camera takes 1 to 3 s to open
+  int read_timeout_ms = 1000;       ///< the next pair is waited for no longer than this
+  int silence_timeout_ms = 3000;    ///< without pairs for so long, the camera is closed and opened again
+  int close_timeout_ms = 5000;      ///< a driver that has not closed by then is left behind
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&OpenNISettings::device, "device", "Empty for the first camera, an index, a URI, or an .oni file.");
@@ -100,14 +101,14 @@ enum class OpenNIState {
 
 /// The state of a camera, with words for people.
 struct OpenNIStatus {
-  OpenNIState state = OpenNIState::kStreaming;
-  std::string message;  ///< what is wrong and what to do about it; empty while streaming
-  OpenNIDeviceInfo device;
-  bool registered = false;         ///< depth and colour show the same points
-  std::int64_t num_pairs = 0;      ///< pairs that arrived
-  std::int64_t num_skipped = 0;    ///< pairs that were replaced by newer ones before anybody read them
-  std::int64_t num_unmatched = 0;  ///< depth or colour images that found no partner in time
-  std::int64_t num_reopened = 0;   ///< how often the camera came back after an unplug or a restart
+  OpenNIState state = OpenNIState::kStreaming;  ///< streaming, or what keeps it from that
+  std::string message;                          ///< what is wrong and what to do about it; empty while streaming
+  OpenNIDeviceInfo device;                      ///< the camera, as far as it is known
+  bool registered = false;                      ///< depth and colour show the same points
+  std::int64_t num_pairs = 0;                   ///< pairs that arrived
+  std::int64_t num_skipped = 0;                 ///< pairs that were replaced by newer ones before anybody read them
+  std::int64_t num_unmatched = 0;               ///< depth or colour images that found no partner in time
+  std::int64_t num_reopened = 0;                ///< how often the camera came back after an unplug or a restart
 };
 
 /// A camera that OpenNI2 drives.

@@ -20,9 +20,10 @@ namespace foothold {
 
 /// Those of the parts.
 struct ReconstructionSettings {
-  FusionSettings fusion;
-  ForestRelocaliserSettings forest;
+  FusionSettings fusion;             ///< of the tracker and the map
+  ForestRelocaliserSettings forest;  ///< of the relocaliser
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&ReconstructionSettings::fusion, "fusion");
@@ -35,6 +36,7 @@ struct ReconstructionSettings {
 /// A scene was made under other settings than those of the reconstruction, under which its voxels and leaves mean something else.
 class OtherSceneSettings : public FileError {
  public:
+  /// With what differs in words, and the scene's settings that differ.
   OtherSceneSettings(const std::string& message, std::vector<SettingText> settings) : FileError(message), settings_(std::move(settings)) {}
   /// Those that differ, as the scene has them: a reconstruction with these can go on with it (assign_setting()).
   const std::vector<SettingText>& settings() const { return settings_; }
@@ -63,9 +65,11 @@ class Reconstruction {
   /// Without a relocaliser: a lost camera is found only where it was last seen. @throws InvalidSettings, DeviceError
   Reconstruction(const Context& context, const FusionSettings& settings);
   ~Reconstruction();
+  /// Copies the map and what the relocaliser has learnt.
   Reconstruction(const Reconstruction& other);
   /// What was moved from may only be assigned to or destroyed.
   Reconstruction(Reconstruction&& other) noexcept;
+  /// Copies or takes over the map and what the relocaliser has learnt.
   Reconstruction& operator=(Reconstruction other) noexcept;
 
   /// Sets the pose of the first frame; the identity otherwise. @pre No frame was processed since construction or reset().
@@ -80,6 +84,7 @@ class Reconstruction {
 
   /// Whether the relocaliser is asked when tracking is lost. It learns in any case.
   bool relocalises() const;
+  /// Has the relocaliser asked, or not, when tracking is lost.
   void set_relocalises(bool on);
 
   /// Saves map, pose, what the relocaliser has learnt, and the settings, in the form of docs/scene-format.md. A file of that name is

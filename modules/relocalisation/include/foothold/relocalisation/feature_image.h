@@ -18,18 +18,22 @@ struct FeaturePixel {
   /// Indexed by FeatureChannel: mean of the valid depths [mm], 0 for none; mean red, green and blue [grey levels].
   std::int16_t channels[4] = {};
 
+  /// Mean depth [mm]; 0 for none.
   FOOTHOLD_HD int depth_mm() const { return channels[0]; }
+  /// Mean red [grey levels].
   FOOTHOLD_HD int r() const { return channels[1]; }
+  /// Mean green [grey levels].
   FOOTHOLD_HD int g() const { return channels[2]; }
+  /// Mean blue [grey levels].
   FOOTHOLD_HD int b() const { return channels[3]; }
 };
 static_assert(sizeof(FeaturePixel) == 8, "loaded as one word");
 
 /// A frame averaged down and packed.
 struct FeatureImageView {
-  const FeaturePixel* pixels = nullptr;
-  int width = 0;
-  int height = 0;
+  const FeaturePixel* pixels = nullptr;  ///< the first pixel of the first row, in the context's memory
+  int width = 0;                         ///< columns
+  int height = 0;                        ///< rows
   /// Pixels of this image per unit of a feature's offset, times millimetres: partner = p + offset * scale / depth_mm.
   float offset_scale_px_mm = 0.0F;
 };
@@ -46,11 +50,14 @@ constexpr int scaled_to_width(int size_px, int width) {
 /// Owns the packed image of the current frame. Copies own their pixels.
 class FeatureImage {
  public:
+  /// An empty image in the context's memory.
   explicit FeatureImage(const Context& context) : pixels_(context.memory()) {}
 
   /// Averages blocks of downscale x downscale pixels of a frame in the context's memory.
   void compute(const Context& context, const Frame& frame, int downscale);
+  /// What kernels see of it, while it lives and is not computed again.
   FeatureImageView view() const { return {pixels_.data(), width_, height_, offset_scale_px_mm_}; }
+  /// Pixels of the frame per pixel of the image, along a side.
   int downscale() const { return downscale_; }
 
  private:

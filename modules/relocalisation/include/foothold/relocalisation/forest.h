@@ -21,9 +21,9 @@ enum class FeatureChannel : std::int32_t { kDepth = 0, kRed = 1, kGreen = 2, kBl
 /// The parameters Omega of one feature: its channel and its offset delta. The partner lies at p + delta / D(p).
 /// Offsets are in pixels times metres for a camera with a focal length of kReferenceFocalPx; other cameras scale them by their own.
 struct ForestFeature {
-  FeatureChannel channel = FeatureChannel::kDepth;
-  float offset_u_px_m = 0.0F;
-  float offset_v_px_m = 0.0F;
+  FeatureChannel channel = FeatureChannel::kDepth;  ///< what is compared at the two pixels
+  float offset_u_px_m = 0.0F;                       ///< along rows [px m]
+  float offset_v_px_m = 0.0F;                       ///< along columns [px m]
 };
 static_assert(sizeof(ForestFeature) == 12, "read from files and by kernels");
 
@@ -40,11 +40,11 @@ static_assert(sizeof(ForestNode) == 8, "read from files and by kernels");
 
 /// What kernels see of a forest: pointers into memory of their device.
 struct ForestView {
-  const ForestFeature* features = nullptr;
-  const ForestNode* nodes = nullptr;
-  const std::int32_t* roots = nullptr;  ///< node index of each tree's root
-  int num_trees = 0;
-  int num_leaves = 0;  ///< of all trees; leaf numbers do not repeat between trees
+  const ForestFeature* features = nullptr;  ///< all that nodes name
+  const ForestNode* nodes = nullptr;        ///< those of all trees
+  const std::int32_t* roots = nullptr;      ///< node index of each tree's root
+  int num_trees = 0;                        ///< number of trees
+  int num_leaves = 0;                       ///< of all trees; leaf numbers do not repeat between trees
 };
 
 /// What a forest may have at most: files and settings ask for memory and time in proportion.
@@ -61,10 +61,15 @@ class Forest {
   /// from 0 without gaps, the forest is empty, or it has more of something than the limits above.
   Forest(std::vector<ForestFeature> features, std::vector<ForestNode> nodes, std::vector<std::int32_t> roots, std::string provenance);
 
+  /// All features that nodes name.
   const std::vector<ForestFeature>& features() const { return features_; }
+  /// The nodes of all trees.
   const std::vector<ForestNode>& nodes() const { return nodes_; }
+  /// The index of each tree's root among the nodes.
   const std::vector<std::int32_t>& roots() const { return roots_; }
+  /// Number of trees.
   int num_trees() const { return static_cast<int>(roots_.size()); }
+  /// Leaves of all trees.
   int num_leaves() const { return num_leaves_; }
   /// Splits on the longest path of any tree.
   int depth() const { return depth_; }
@@ -72,6 +77,7 @@ class Forest {
   const std::string& provenance() const { return provenance_; }
   /// FNV-1a over features, nodes and roots: names the branches in files that refer to them.
   std::uint64_t fingerprint() const;
+  /// What kernels on the host see of it, while it lives.
   ForestView view() const;
 
  private:

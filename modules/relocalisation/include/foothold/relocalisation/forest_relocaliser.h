@@ -33,9 +33,11 @@ class ForestRelocaliser final : public Relocaliser, public Persistent {
   ~ForestRelocaliser() override;
   /// What was moved from may only be assigned to or destroyed; all else is a ContractViolation.
   ForestRelocaliser(ForestRelocaliser&&) noexcept;
+  /// What was moved from may only be assigned to or destroyed.
   ForestRelocaliser& operator=(ForestRelocaliser&&) noexcept;
   /// Copies the scene too, for experiments that branch off.
   ForestRelocaliser(const ForestRelocaliser&);
+  /// Copies the scene too.
   ForestRelocaliser& operator=(const ForestRelocaliser&);
 
   void train(const Frame& frame, const SE3& world_from_camera) override;
@@ -53,7 +55,9 @@ class ForestRelocaliser final : public Relocaliser, public Persistent {
   void save(std::ostream& stream) const override;
   void load(std::istream& stream) override;
 
+  /// The forest that it was made with.
   const Forest& forest() const;
+  /// As given to the constructor.
   const ForestRelocaliserSettings& settings() const;
 
  private:

@@ -18,20 +18,21 @@ namespace foothold {
 /// How frames are encoded, kept and recognised. (P): [Glocker2015]. (T): fitted to the loss protocol with gaps of 0 to 30 frames on
 /// 7-Scenes RedKitchen seq-01 and TUM fr3/teddy together, where 9 of 10 proposals above the acceptance threshold were right.
 struct KeyframeRelocaliserSettings {
-  int num_ferns = 500;
-  int encoded_width_px = 40;
-  float smoothing_sigma_px = 2.5F;
-  float min_threshold_m = 0.8F;
-  float max_threshold_m = 4.0F;
-  float min_valid_fraction = 0.1F;
-  float harvest_dissimilarity = 0.2F;
-  int max_keyframes = 100000;
-  int num_candidates = 1;
-  float confidence_midpoint = 0.1F;
-  float confidence_spread = 0.05F;
-  float acceptance_threshold = 0.75F;
-  std::uint64_t seed = 42;
+  int num_ferns = 500;                 ///< ferns of four binary depth tests each (P)
+  int encoded_width_px = 40;           ///< images are halved until they are about this wide (P)
+  float smoothing_sigma_px = 2.5F;     ///< of the Gaussian that smooths the halved image (P)
+  float min_threshold_m = 0.8F;        ///< least depth that a test compares with: a Kinect's nominal range [m]
+  float max_threshold_m = 4.0F;        ///< greatest depth that a test compares with: a Kinect's nominal range [m]
+  float min_valid_fraction = 0.1F;     ///< of the halved image; frames with less depth are ignored
+  float harvest_dissimilarity = 0.2F;  ///< a frame less dissimilar from some keyframe becomes none (P)
+  int max_keyframes = 100000;          ///< kept at most
+  int num_candidates = 1;              ///< nearest keyframes whose poses are proposed (P)
+  float confidence_midpoint = 0.1F;    ///< dissimilarity at which a proposal is as likely right as wrong (T)
+  float confidence_spread = 0.05F;     ///< how gently confidence falls around its midpoint (T)
+  float acceptance_threshold = 0.75F;  ///< confidence from which a host should believe the first proposal (T)
+  std::uint64_t seed = 42;             ///< of the tests' places and thresholds
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     using S = KeyframeRelocaliserSettings;
@@ -68,10 +69,13 @@ class KeyframeRelocaliser final : public Relocaliser, public Persistent {
   /// Works on the host whatever the context's device; frames in CUDA memory are copied. @throws InvalidSettings
   explicit KeyframeRelocaliser(const Context& context, const KeyframeRelocaliserSettings& settings = {});
   ~KeyframeRelocaliser() override;
+  /// What was moved from may only be assigned to or destroyed.
   KeyframeRelocaliser(KeyframeRelocaliser&&) noexcept;
+  /// What was moved from may only be assigned to or destroyed.
   KeyframeRelocaliser& operator=(KeyframeRelocaliser&&) noexcept;
   /// Copies the scene too, for experiments that branch off.
   KeyframeRelocaliser(const KeyframeRelocaliser&);
+  /// Copies the scene too.
   KeyframeRelocaliser& operator=(const KeyframeRelocaliser&);
 
   void train(const Frame& frame, const SE3& world_from_camera) override;
@@ -84,7 +88,9 @@ class KeyframeRelocaliser final : public Relocaliser, public Persistent {
   void save(std::ostream& stream) const override;
   void load(std::istream& stream) override;
 
+  /// Keyframes kept so far.
   std::size_t num_keyframes() const;
+  /// As given to the constructor.
   const KeyframeRelocaliserSettings& settings() const;
 
  private:

@@ -16,6 +16,7 @@ namespace foothold {
 struct FeatureSettings {
   int downscale = 4;  ///< (P) 1, (T) 4
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&FeatureSettings::downscale, "downscale",
@@ -30,6 +31,7 @@ struct ReservoirSettings {
   bool jitter = true;           ///< (P) false, (T) true
   int examples_per_view = 255;  ///< (P) 0, (T) 255, docs/experiments/places.md
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&ReservoirSettings::capacity, "capacity", "Points that a leaf remembers at most.", Range{16, 1024});
@@ -50,6 +52,7 @@ struct ClusteringSettings {
   int leaves_per_frame = 1024;        ///< (P) 256, (T) 1024
   int point_budget = 16000;           ///< (P) none, (T) 16000
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&ClusteringSettings::min_cluster_size, "min_cluster_size", "Points below which a cluster is dropped.", Range{1, 1024});
@@ -70,6 +73,7 @@ struct PoseEstimatorSettings {
   int num_candidates = 16;    ///< (P) the supplement's last 16
   bool as_published = false;  ///< (P) true
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     using S = PoseEstimatorSettings;
@@ -89,8 +93,9 @@ struct RandomForestSettings {
   float max_offset_px_m = 65.0F;      ///< (T)
   float depth_threshold_mm = 300.0F;  ///< (T)
   float colour_threshold = 25.0F;     ///< (T)
-  std::uint64_t seed = 42;
+  std::uint64_t seed = 42;            ///< of every random choice
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     using S = RandomForestSettings;
@@ -107,17 +112,18 @@ struct RandomForestSettings {
 
 /// Everything about a ForestRelocaliser but its forest.
 struct ForestRelocaliserSettings {
-  FeatureSettings features;
-  ReservoirSettings reservoirs;
-  ClusteringSettings clustering;
-  PoseEstimatorSettings pose;
+  FeatureSettings features;            ///< of the image that features are computed on
+  ReservoirSettings reservoirs;        ///< of what leaves remember
+  ClusteringSettings clustering;       ///< of the modes of leaves
+  PoseEstimatorSettings pose;          ///< of hypotheses and their refinement
   float acceptance_threshold = 0.75F;  ///< (T) docs/experiments/trust.md
   int num_rolls = 8;                   ///< (P) 1, (T) 8, docs/experiments/rolled-cameras.md
   float sure_confidence = 0.97F;       ///< (T) docs/experiments/rolled-cameras.md
   float place_radius_m = 4.0F;         ///< (P) 16, as good as one place; (T) 4, docs/experiments/places.md
   int memory_budget_mb = 0;            ///< memory grows with what is seen, not with time: a host that must bound it says how
-  std::uint64_t seed = 42;
+  std::uint64_t seed = 42;             ///< of every random choice
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     using S = ForestRelocaliserSettings;

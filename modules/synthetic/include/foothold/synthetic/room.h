@@ -43,7 +43,7 @@ enum class Texture {
 
 /// How a surface reflects.
 struct Material {
-  Texture texture = Texture::kPlain;
+  Texture texture = Texture::kPlain;         ///< the pattern
   Eigen::Vector3f colour{0.7F, 0.7F, 0.7F};  ///< red, green, blue in [0, 1]
   Eigen::Vector3f accent{0.3F, 0.3F, 0.3F};  ///< the pattern's second colour
   float scale_m = 0.1F;                      ///< size of the pattern's largest element
@@ -53,35 +53,35 @@ struct Material {
 
 /// A simple shape of one material.
 struct Primitive {
-  Shape shape = Shape::kBox;
-  SE3 world_from_local;
-  Eigen::Vector3f half_size_m = Eigen::Vector3f::Ones();
-  Material material;
-  std::uint32_t seed = 0;  ///< varies the pattern; equal seeds give equal patterns
+  Shape shape = Shape::kBox;                              ///< the kind of shape
+  SE3 world_from_local;                                   ///< its pose in the room
+  Eigen::Vector3f half_size_m = Eigen::Vector3f::Ones();  ///< along the axes of the shape, from its centre [m]
+  Material material;                                      ///< what it is made of
+  std::uint32_t seed = 0;                                 ///< varies the pattern; equal seeds give equal patterns
   /// The number of the piece of furniture that it is a part of, or kFixture for what belongs to the building.
   std::int32_t piece = kFixture;
-  static constexpr std::int32_t kFixture = -1;
+  static constexpr std::int32_t kFixture = -1;  ///< the piece of walls, floor, ceiling and the like
 };
 
 /// A lamp that shines equally in all directions and casts no shadows.
 struct PointLight {
-  Eigen::Vector3f position_world = Eigen::Vector3f::Zero();
-  Eigen::Vector3f intensity = Eigen::Vector3f::Ones();  ///< light on a facing surface at distance d [m]: intensity / (0.5 + d^2)
+  Eigen::Vector3f position_world = Eigen::Vector3f::Zero();  ///< where it shines from [m]
+  Eigen::Vector3f intensity = Eigen::Vector3f::Ones();       ///< light on a facing surface at distance d [m]: intensity / (0.5 + d^2)
 };
 
 /// A scene, and where a camera may go in it.
 struct Room {
-  std::string name;
-  std::vector<Primitive> primitives;
-  std::vector<PointLight> lights;
-  Eigen::Vector3f ambient = Eigen::Vector3f::Constant(0.45F);
-  Eigen::Vector3f low_world{-2.0F, -2.0F, 0.0F};  ///< lowest corner of the room's shell
-  Eigen::Vector3f high_world{2.0F, 2.0F, 2.5F};   ///< highest corner of the room's shell
-  Eigen::Vector3f eye_low_world{-1.0F, -1.0F, 1.2F};
-  Eigen::Vector3f eye_high_world{1.0F, 1.0F, 1.8F};  ///< the camera's centre stays within about this box
-  std::vector<Eigen::Vector3f> targets_world;        ///< what a person would point the camera at
-  std::uint64_t seed = 0;                            ///< decides the trajectories
-  std::int32_t num_pieces = 0;                       ///< of furniture; Primitive::piece is below it
+  std::string name;                                            ///< as SyntheticSequenceSettings::room has it
+  std::vector<Primitive> primitives;                           ///< all that there is in it
+  std::vector<PointLight> lights;                              ///< all lamps
+  Eigen::Vector3f ambient = Eigen::Vector3f::Constant(0.45F);  ///< light from everywhere: red, green, blue
+  Eigen::Vector3f low_world{-2.0F, -2.0F, 0.0F};               ///< lowest corner of the room's shell
+  Eigen::Vector3f high_world{2.0F, 2.0F, 2.5F};                ///< highest corner of the room's shell
+  Eigen::Vector3f eye_low_world{-1.0F, -1.0F, 1.2F};           ///< the lowest place of the camera's centre [m]
+  Eigen::Vector3f eye_high_world{1.0F, 1.0F, 1.8F};            ///< the camera's centre stays within about this box
+  std::vector<Eigen::Vector3f> targets_world;                  ///< what a person would point the camera at
+  std::uint64_t seed = 0;                                      ///< decides the trajectories
+  std::int32_t num_pieces = 0;                                 ///< of furniture; Primitive::piece is below it
 };
 
 /// The names of the test rooms. Training rooms, "training-0", "training-1" and so on, come on top without limit.

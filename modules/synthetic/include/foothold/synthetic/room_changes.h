@@ -14,6 +14,7 @@ namespace foothold {
 struct RoomChanges {
   /// Share that stands, lies or hangs elsewhere: a quarter of a metre to a metre or so away, much of it turned.
   float moved = 0.0F;
+  /// Share that is taken away.
   float removed = 0.0F;
   /// New pieces, as a share of those that there were.
   float added = 0.0F;
@@ -22,6 +23,7 @@ struct RoomChanges {
   /// Decides what is changed, and how.
   std::uint64_t change_seed = 0;
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&RoomChanges::moved, "moved", "Share of the furniture that stands elsewhere.", Range{0, 1});

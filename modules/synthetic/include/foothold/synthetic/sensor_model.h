@@ -24,7 +24,7 @@ struct SensorModel {
   float lateral_sigma_px = 0.5F;
   /// Depth outside these limits is not measured [m].
   float min_depth_m = 0.4F;
-  float max_depth_m = 6.0F;
+  float max_depth_m = 6.0F;  ///< the farthest [m]
   /// Surfaces seen flatter than this lose pixels: below the cosine half of them, below half the cosine all.
   float grazing_cosine = 0.17F;
   /// Standard deviation of the colour noise [grey levels].

@@ -25,7 +25,7 @@ struct SyntheticSequenceSettings : RoomChanges, ViewEffects {
   int frames = 300;
   /// Size of the images [px]; the focal length of 585 px at 640 scales with the width.
   int width = 640;
-  int height = 480;
+  int height = 480;  ///< rows [px]
   /// 0 exact, 1 as a Kinect sees it, 2 a bad day of it.
   int noise = 1;
   /// Varies the noise and the hand's tremor; neither the room nor the path.
@@ -33,6 +33,7 @@ struct SyntheticSequenceSettings : RoomChanges, ViewEffects {
   /// Turns the camera about its optical axis, clockwise as seen from behind it [deg].
   float roll_deg = 0.0F;
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&SyntheticSequenceSettings::room, "room", "Room to render; training-K for any K is a training room.");

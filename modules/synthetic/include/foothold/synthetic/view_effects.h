@@ -19,6 +19,7 @@ struct ViewEffects {
   float holes = 0.0F;     ///< share of the image without depth, in patches
   float person = 0.0F;    ///< share of the image that somebody standing before the camera covers, about; clothes differ with the seed
 
+  /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&ViewEffects::exposure, "exposure", "Factor on brightness.", Range{0.01, 100});
