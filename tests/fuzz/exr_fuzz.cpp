@@ -5,7 +5,7 @@
 #include "exr_image.h"
 #include "fuzz.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(exr) {
   using namespace foothold;
   const std::string bytes = fuzz::text_of(data, size);
   fuzz::attempt([&] {

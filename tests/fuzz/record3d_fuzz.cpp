@@ -6,7 +6,7 @@
 #include "fuzz.h"
 #include "record3d_metadata.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+FOOTHOLD_FUZZ_TARGET(record3d) {
   using namespace foothold;
   const std::string text = fuzz::text_of(data, size);
   fuzz::attempt([&] {

@@ -14,6 +14,7 @@
 #include "image_decoding.h"
 #include "lost_identities.h"
 #include "raw_image.h"
+#include "recording_conventions.h"
 #include "text_file.h"
 #include "undistortion.h"
 #include "unreadable_frames.h"
@@ -26,44 +27,6 @@ namespace fs = std::filesystem;
 /// Recordings whose first pose is further from their origin are shown relative to it: at a kilometre, single precision still resolves a
 /// sixteenth of a millimetre.
 constexpr double kFar_m = 1000.0;
-
-/// A value, and where it comes from.
-template <class T>
-struct Sourced {
-  T value;
-  std::string source;
-};
-
-Sourced<double> depth_unit(const FoundRecording& found, const RecordingCalibration& calibration, const SequenceOptions& options) {
-  if (options.depth_units_per_m != 0.0) {
-    if (!(options.depth_units_per_m > 0.0 && options.depth_units_per_m <= 1e6)) {
-      throw InvalidSettings("depth scale: got " + numbers_text(&options.depth_units_per_m, 1) + ", expected depth units per metre, to 1e6");
-    }
-    return {depth_units_per_m(options.depth_units_per_m), "as given"};
-  }
-  const fs::path file = found.folder / "depth-scale.txt";
-  if (fs::exists(file)) {
-    const double value = parse_numbers(read_text(file, kMaxNumbersFileBytes), 1, file, "number of depth units per metre").front();
-    if (!(value > 0.0 && value <= 1e6)) throw_file_error(file, numbers_text(&value, 1), "depth units per metre, to 1e6");
-    return {depth_units_per_m(value), file.filename().string()};
-  }
-  if (calibration.depth_units_per_m.has_value()) return {*calibration.depth_units_per_m, "beside the intrinsics"};
-  return {found.depth_units_per_m, found.depth_unit_source.empty() ? "as in all of this layout" : found.depth_unit_source};
-}
-
-PoseConvention pose_convention(const FoundRecording& found, const SequenceOptions& options) {
-  if (!options.pose_convention.empty()) return parse_pose_convention(options.pose_convention);
-  const fs::path file = found.folder / "pose-convention.txt";
-  if (!fs::exists(file)) return found.pose_convention;
-  const std::string text = read_text(file, kMaxNumbersFileBytes);
-  std::string words;
-  for (const std::string_view word : split_words(text)) words += (words.empty() ? "" : ",") + std::string(word);
-  try {
-    return parse_pose_convention(words);
-  } catch (const InvalidSettings& error) {
-    throw FileError(file.string() + ": " + error.what());
-  }
-}
 
 ImageSize size_of(const StoredImage& image, const ImageSize& raw_size) {
   if (image.coding == ImageCoding::kExr) return parse_exr_header(read_stored_image(image), image.file).size;
@@ -95,7 +58,7 @@ class FolderRecording : public Recording {
         depth_lens_(calibration.depth),
         colour_lens_(calibration.colour),
         registers_(options.register_colour || depth_size_ != colour_size_) {
-    const auto [units_per_m, unit_source] = depth_unit(found_, calibration, options);
+    const auto [units_per_m, unit_source] = settle_depth_unit(found_, calibration, options);
     facts_ = {found_.folder.string(),
               found_.layout,
               depth_size_.width,
@@ -112,7 +75,7 @@ class FolderRecording : public Recording {
               {},
               {},
               {}};
-    settle_poses(pose_convention(found_, options));
+    settle_poses(settle_pose_convention(found_, options));
   }
 
   std::string name() const override { return recording_name(found_.folder); }
@@ -237,7 +200,6 @@ void warn_of_missing_poses(const RecordingFacts& facts, bool tells_poses, const 
 }
 
 }  // namespace
-
 }  // namespace foothold::io
 
 std::string foothold::depth_unit_text(const RecordingFacts& facts) {
