@@ -14,9 +14,9 @@ void draw_header(Canvas& canvas, const cv::Rect& area, const ViewContents& conte
 void draw_caption(Canvas& canvas, cv::Point corner, const std::string& words);
 /// A picture with a caption in its corner; says so where there is none.
 void draw_picture(Canvas& canvas, const cv::Rect& area, const Image<Rgb8>& image, const std::string& caption, double brightness = 1.0);
-/// Depth, colour-coded, with the code.
 /// Lines at the bottom of a picture, where nobody overlooks them.
 void draw_advice(Canvas& canvas, const cv::Rect& area, const std::vector<std::string>& lines);
+/// Depth, colour-coded, with the code.
 void draw_depth(Canvas& canvas, const cv::Rect& area, const ViewContents& contents);
 /// Milliseconds per stage as bars.
 void draw_timings(Canvas& canvas, const cv::Rect& area, const ViewContents& contents);

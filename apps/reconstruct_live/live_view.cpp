@@ -74,6 +74,7 @@ void LiveView::show(apps::ViewContents contents, std::int64_t num_frames) {
     drawing_ = std::async(std::launch::async, [contents = std::move(contents)] { return drawn(contents); });
     return;
   }
+  drawing_ = {};  // what is being drawn is older: it must not be shown after this one
   const Drawn now = drawn(contents);
   if (file_is_due(num_frames)) write_file(now, num_frames);
   present(now);

@@ -24,9 +24,7 @@ Motion between(const RecordedPose& a, const RecordedPose& b) {
   return {(a.translation_m - b.translation_m).norm(), Eigen::AngleAxisd(a.rotation.transpose() * b.rotation).angle()};
 }
 
-bool is_identity(const std::optional<RecordedPose>& pose) {
-  return pose.has_value() && pose->translation_m == Eigen::Vector3d::Zero() && pose->rotation == Eigen::Matrix3d::Identity();
-}
+bool is_identity(const std::optional<RecordedPose>& pose) { return pose.has_value() && io::is_identity(*pose); }
 
 /// The longest steps between consecutive poses of which neither is the identity; nothing if they are too few.
 std::optional<Motion> longest_step(const std::vector<std::optional<RecordedPose>>& poses) {

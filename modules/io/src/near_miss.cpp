@@ -4,9 +4,8 @@
 
 #include <array>
 #include <cmath>
-#include <iomanip>
-#include <sstream>
 
+#include "foothold/base/number_text.h"
 #include "text_file.h"
 
 namespace foothold::io {
@@ -94,11 +93,7 @@ std::optional<NearMiss> find_near_miss(const std::vector<FramePair>& pairs, cons
 }
 
 std::string describe(const NearMiss& miss, const Intrinsics& camera) {
-  const auto about = [](double value) {
-    std::ostringstream text;
-    text << "about " << std::setprecision(3) << value;
-    return text.str();
-  };
+  const auto about = [](double value) { return "about " + general_text(value, 3); };
   const auto fx = static_cast<double>(camera.fx);
   switch (miss.kind) {
     case Kind::kFocalLength:

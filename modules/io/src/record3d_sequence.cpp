@@ -34,10 +34,8 @@ fs::path metadata_file(const fs::path& folder) {
 
 /// The selfie camera comes without poses: all of its frames have the identity.
 void drop_identities(std::vector<std::optional<RecordedPose>>& poses, const fs::path& file, const Context& context) {
-  const auto is_identity = [](const std::optional<RecordedPose>& pose) {
-    return pose.has_value() && pose->rotation.isIdentity(0.0) && pose->translation_m.isZero(0.0);
-  };
-  if (poses.size() < 2 || !std::all_of(poses.begin(), poses.end(), is_identity)) return;
+  const auto tells_nothing = [](const std::optional<RecordedPose>& pose) { return pose.has_value() && is_identity(*pose); };
+  if (poses.size() < 2 || !std::all_of(poses.begin(), poses.end(), tells_nothing)) return;
   context.log(LogLevel::kWarning, file.string() + ": all " + std::to_string(poses.size()) +
                                       " poses are the identity, as those of the phone's front camera: they count as none");
   poses.clear();

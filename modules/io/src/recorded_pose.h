@@ -19,6 +19,9 @@ struct RecordedPose {
   Eigen::Vector3d translation_m = Eigen::Vector3d::Zero();
 };
 
+/// True for exactly the identity, as loggers write it that know no pose.
+inline bool is_identity(const RecordedPose& pose) { return pose.rotation.isIdentity(0.0) && pose.translation_m.isZero(0.0); }
+
 /// By how much an entry of R^T R may differ from the identity before a matrix no longer counts as a rotation. The rotations of 7-Scenes
 /// are orthonormal to 1e-4.
 inline constexpr double kRotationTolerance = 1e-2;

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 
 #include "depth_statistics.h"
 #include "foothold/base/error.h"
+#include "foothold/base/number_text.h"
 #include "image_header.h"
 #include "near_miss.h"
 #include "pose_check.h"
@@ -55,11 +55,7 @@ bool is_coarse(const RecordingFacts& facts) { return !facts.depth_is_continuous 
 
 std::string percent(double fraction) { return std::to_string(std::lround(100.0 * fraction)) + " %"; }
 
-std::string metres(double distance_m) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g m", distance_m);
-  return text.data();
-}
+std::string metres(double distance_m) { return general_text(distance_m, 3) + " m"; }
 
 /// The depth of a frame; empty if it cannot be read, which is noted.
 std::shared_ptr<const Image<float>> try_depth(const Recording& recording, int index, RecordingCheck& check) {

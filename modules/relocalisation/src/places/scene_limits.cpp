@@ -39,9 +39,9 @@ Detail SceneLimits::detail(const Context& context, std::size_t state_bytes, std:
 }
 
 void SceneLimits::watch_reach(const Context& context, std::size_t num_beyond_reach, std::size_t num_examples, std::int64_t frame_index) {
-  const double fraction = static_cast<double>(num_beyond_reach) / static_cast<double>(num_examples);
-  if (told_reach_ || num_examples == 0 || fraction <= kTooMuch) return;
+  if (told_reach_ || static_cast<double>(num_beyond_reach) <= kTooMuch * static_cast<double>(num_examples)) return;
   told_reach_ = true;
+  const double fraction = static_cast<double>(num_beyond_reach) / static_cast<double>(num_examples);
   context.log(LogLevel::kWarning, "frame " + std::to_string(frame_index) + ": " + std::to_string(std::lround(100.0 * fraction)) +
                                       " % of it lies more than " + std::to_string(std::lround(kReachMm * 0.001F)) +
                                       " m from where its place began, and is not learnt");

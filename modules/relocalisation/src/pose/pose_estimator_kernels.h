@@ -79,6 +79,7 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
     confront(executor, query, hypotheses, buffers.ranking);
   }
   const std::size_t num_evaluated = num_alive<Executor>(hypotheses.view(), num_candidates);
+  // What failed is no candidate. On CUDA none is left out: this touches no device memory.
   std::fill(buffers.candidates.data() + num_evaluated, buffers.candidates.data() + num_candidates, PoseCandidate{});
   for_each_group(executor, num_evaluated, [&](auto width) {
     return EvaluateCandidates<decltype(width)::value>{pool,
