@@ -112,7 +112,6 @@ FusionSettings small_fusion() {
   settings.volume.truncation_m = 0.12F;
   settings.render_divisor = 1;
   settings.refiner.coarse_divisor = 4;
-  settings.refiner.fine_divisor = 2;
   return settings;
 }
 

@@ -176,7 +176,6 @@ TEST_CASE("CUDA: candidates refined in one batch end where the CPU's end, with i
   const RgbdFrame frame = test::render(test::Scene{}, test::pose_on_arc(0.45F), 160, 120);
   PoseRefinerSettings settings;  // for images of a quarter of a camera's size
   settings.coarse_divisor = 2;
-  settings.fine_divisor = 1;
   Random random = test::test_random();
   const auto sees_nothing = [](float x) { return PoseEstimate{test::look_at({x, 0.0F, 20.0F}, {x, 0.0F, 30.0F}), 0.5F}; };
   std::vector<PoseEstimate> near = {sees_nothing(0.0F)};

@@ -19,7 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr BinaryFormat kSceneFormat{"scene", "FHSCENE\n", 2};
+constexpr BinaryFormat kSceneFormat{"scene", "FHSCENE\n", 3};
 constexpr BinaryFormat kPartFormat{"part of a scene", "FHPART\r\n", 1};
 constexpr std::uint64_t kMaxDescriptionBytes = 1U << 20U;
 constexpr std::uint64_t kMaxParts = 64;

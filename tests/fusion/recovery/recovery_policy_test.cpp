@@ -14,16 +14,12 @@ using Quality = TrackingQuality;
 using State = RecoveryState;
 
 constexpr int kSettleFrames = 4;
-constexpr int kSettleAfterPoor = 2;
 constexpr int kMaxPoor = 5;
-constexpr int kConfirmInterval = 3;
 
 RecoveryPolicy make_policy() {
   RecoverySettings settings;
   settings.settle_frames = kSettleFrames;
-  settings.settle_frames_after_poor = kSettleAfterPoor;
   settings.max_poor_frames = kMaxPoor;
-  settings.confirm_interval = kConfirmInterval;
   return RecoveryPolicy(settings);
 }
 
@@ -65,7 +61,7 @@ TEST_CASE("RecoveryPolicy: tracking, poor: neither fuses nor trains, until enoug
   RecoveryPolicy policy = make_policy();
   REQUIRE_FALSE(policy.should_relocalise(Quality::kPoor));
   require(step(policy, Quality::kPoor), State::kSettling, PoseSource::kTracker, false);
-  for (int i = 0; i < kSettleAfterPoor; ++i) require(step(policy, Quality::kGood), State::kSettling, PoseSource::kTracker, false);
+  for (int i = 0; i < kSettleFramesAfterPoor; ++i) require(step(policy, Quality::kGood), State::kSettling, PoseSource::kTracker, false);
   require(step(policy, Quality::kGood), State::kTracking, PoseSource::kTracker, true);
 }
 
@@ -110,7 +106,7 @@ TEST_CASE("RecoveryPolicy: settling on a recovered pose lasts until views from n
 
   step(policy, Quality::kPoor);  // a pose that was tracked needs no views
   REQUIRE_FALSE(policy.is_unconfirmed());
-  for (int i = 0; i < kSettleAfterPoor; ++i) require(good(false), State::kSettling, PoseSource::kTracker, false);
+  for (int i = 0; i < kSettleFramesAfterPoor; ++i) require(good(false), State::kSettling, PoseSource::kTracker, false);
   require(good(false), State::kTracking, PoseSource::kTracker, true);
 }
 
@@ -159,18 +155,6 @@ TEST_CASE("RecoveryPolicy: whatever happens, nothing is learnt while lost, settl
   }
 }
 
-TEST_CASE("RecoveryPolicy: an interval of 0 never asks while settling") {
-  RecoverySettings settings;
-  settings.confirm_interval = 0;
-  RecoveryPolicy policy(settings);
-  step(policy, Quality::kFailed);
-  step(policy, Quality::kFailed, Outcome::kElsewhere);
-  for (int i = 0; i < 9; ++i) {
-    REQUIRE_FALSE(policy.should_relocalise(Quality::kGood));
-    step(policy, Quality::kGood);
-  }
-}
-
 TEST_CASE("RecoveryPolicy: reset() goes back to tracking") {
   RecoveryPolicy policy = lost_policy();
   policy.reset();
@@ -181,9 +165,7 @@ TEST_CASE("RecoveryPolicy: reset() goes back to tracking") {
 TEST_CASE("RecoverySettings: defaults, and what is refused") {
   const RecoverySettings defaults;
   REQUIRE(defaults.settle_frames == 10);
-  REQUIRE(defaults.settle_frames_after_poor == 3);
   REQUIRE(defaults.max_poor_frames == 30);
-  REQUIRE(defaults.confirm_interval == 3);
   RecoverySettings wrong;
   wrong.max_poor_frames = 0;
   REQUIRE_THROWS_AS(RecoveryPolicy(wrong), InvalidSettings);

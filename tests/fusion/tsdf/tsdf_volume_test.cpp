@@ -184,7 +184,6 @@ TEST_CASE("TsdfSettings: defaults are as documented, and each range is enforced"
   REQUIRE(defaults.max_weight == 255);
   REQUIRE(defaults.min_depth_m == 0.2F);
   REQUIRE(defaults.max_depth_m == 5.0F);
-  REQUIRE(defaults.allocation_stride_px == 4);
   REQUIRE(defaults.max_blocks == 1 << 20);
   REQUIRE_NOTHROW(defaults.validate());
   const auto require_invalid = [](auto change) {
@@ -197,7 +196,6 @@ TEST_CASE("TsdfSettings: defaults are as documented, and each range is enforced"
   require_invalid([](TsdfSettings& s) { s.max_weight = 256; });
   require_invalid([](TsdfSettings& s) { s.min_depth_m = 6.0F; });
   require_invalid([](TsdfSettings& s) { s.max_depth_m = std::numeric_limits<float>::quiet_NaN(); });
-  require_invalid([](TsdfSettings& s) { s.allocation_stride_px = 0; });
   require_invalid([](TsdfSettings& s) { s.max_blocks = 0; });
 }
 

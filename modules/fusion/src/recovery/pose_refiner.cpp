@@ -51,18 +51,12 @@ ClassifierModel with_lenient_poor_threshold(ClassifierModel model) {
 /// Whether colours were compared: not in the dark. Shapes alone do not tell places apart.
 bool has_colour(const ViewAgreement& agreement) { return agreement.colour_correlation != 0.0F; }
 
+int fine_divisor(const PoseRefinerSettings& settings) { return std::max(1, settings.coarse_divisor / 2); }
+
 RenderCamera reduced_camera(const Frame& frame, int divisor) {
   return RenderCamera{frame.calibration.depth, frame.depth.width, frame.depth.height, SE3{}}.reduced(divisor);
 }
 }  // namespace
-
-void PoseRefinerSettings::validate() const {
-  validate_settings(*this);
-  if (fine_divisor > coarse_divisor) {
-    throw InvalidSettings("setting fine_divisor: got " + std::to_string(fine_divisor) + ", expected at most coarse_divisor, " +
-                          std::to_string(coarse_divisor));
-  }
-}
 
 std::array<float, kNumAcceptanceFeatures> acceptance_features(const TrackingMeasures& measures, const ViewAgreement& agreement) {
   return {agreement.overlap,        agreement.agreement,          agreement.in_front,
@@ -87,7 +81,7 @@ PoseRefiner::PoseRefiner(const Context& context, const PoseRefinerSettings& sett
       classifier_(with_lenient_poor_threshold(classifier)),
       raycaster_(context),
       coarse_icp_(context, IcpLevels::for_divisor(settings.coarse_divisor), range),
-      fine_icp_(context, IcpLevels::for_divisor(settings.fine_divisor), range),
+      fine_icp_(context, IcpLevels::for_divisor(fine_divisor(settings)), range),
       comparer_(context, range),
       map_(context.memory()),
       proposals_(context.memory()) {
@@ -136,7 +130,7 @@ void PoseRefiner::attribute(Span<const PoseEstimate> proposals, int candidate, R
   if (!is_near(proposal.world_from_camera, pose.world_from_camera, kConfidentWithinM, kConfidentWithinDeg)) return;
   // In doubt it speaks neither for nor against: it proposed the pose all the same.
   if (!(proposal.confidence > 0.5F)) return;
-  const float trust = std::min(proposal.confidence, settings_.max_trust);
+  const float trust = std::min(proposal.confidence, kMaxTrust);
   const float odds = trust / (1.0F - trust);
   pose.probability = pose.probability * odds / (pose.probability * odds + 1.0F - pose.probability);
 }
@@ -166,7 +160,7 @@ std::vector<RefinedPose> PoseRefiner::align_coarsely(const Frame& frame, const T
 }
 
 std::vector<RefinedPose> PoseRefiner::align_finely(const Frame& frame, const TsdfVolume& volume, Span<const SE3> proposals) {
-  const RenderCamera camera = reduced_camera(frame, settings_.fine_divisor);
+  const RenderCamera camera = reduced_camera(frame, fine_divisor(settings_));
   proposals_.assign(context_, proposals);
   raycaster_.render_all(volume, camera, proposals_, map_);
   fine_icp_.align_all(map_, proposals_);

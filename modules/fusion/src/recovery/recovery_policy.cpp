@@ -22,7 +22,7 @@ void RecoveryPolicy::reset() { *this = RecoveryPolicy(settings_); }
 
 bool RecoveryPolicy::should_relocalise(TrackingQuality tracked) const {
   if (state_ == RecoveryState::kLost || tracked == TrackingQuality::kFailed) return true;
-  return state_ == RecoveryState::kSettling && settings_.confirm_interval > 0 && (num_settling_ + 1) % settings_.confirm_interval == 0;
+  return state_ == RecoveryState::kSettling && (num_settling_ + 1) % kConfirmInterval == 0;
 }
 
 RecoveryDecision RecoveryPolicy::settle(int num_frames, PoseSource pose) {
@@ -56,7 +56,7 @@ RecoveryDecision RecoveryPolicy::update(TrackingQuality tracked, RelocalisationO
       num_poor_ = 0;
       return {state_, PoseSource::kNone, false, false};
     }
-    if (state_ == RecoveryState::kTracking) return settle(settings_.settle_frames_after_poor, PoseSource::kTracker);
+    if (state_ == RecoveryState::kTracking) return settle(kSettleFramesAfterPoor, PoseSource::kTracker);
     good_frames_left_ = settle_length_;  // the good frames must follow one another
     ++num_settling_;
     return {state_, PoseSource::kTracker, false, false};

@@ -35,11 +35,13 @@ struct ClaimTable {
   }
 };
 
+/// Every so many pixels, in both directions, allocate the blocks along their ray (T: fusion_benchmark, kitchen).
+inline constexpr int kAllocationStridePx = 4;
+
 /// Claims every missing block along the truncation band of one sampled pixel.
 struct CollectWantedBlocks {
   TsdfView volume;
   PosedDepth camera;
-  int stride_px;
   int num_columns;
   int num_steps;  ///< samples along the band, half a block apart or closer
   ClaimTable claims;
@@ -47,8 +49,8 @@ struct CollectWantedBlocks {
   std::uint32_t* claimed;  ///< 1 where the slot is
 
   FOOTHOLD_HD void operator()(std::size_t sample) const {
-    const int u = static_cast<int>(sample) % num_columns * stride_px;
-    const int v = static_cast<int>(sample) / num_columns * stride_px;
+    const int u = static_cast<int>(sample) % num_columns * kAllocationStridePx;
+    const int v = static_cast<int>(sample) / num_columns * kAllocationStridePx;
     const float depth_m = camera.depth(u, v);
     const bool usable = camera.range.holds(depth_m);
     const float band_step_m = 2.0F * volume.truncation_m / static_cast<float>(num_steps - 1);

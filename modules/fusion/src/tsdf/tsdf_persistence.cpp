@@ -10,7 +10,7 @@
 namespace foothold {
 
 namespace {
-constexpr BinaryFormat kMapFormat{"map", "FHTSDF\r\n", 2};
+constexpr BinaryFormat kMapFormat{"map", "FHTSDF\r\n", 3};
 
 /// What the map was made with, and how much of it there is.
 struct Header {
@@ -20,10 +20,9 @@ struct Header {
   std::int32_t max_weight;
   float min_depth_m;
   float max_depth_m;
-  std::int32_t allocation_stride_px;
   std::int32_t max_blocks;
 };
-static_assert(sizeof(Header) == 32, "the header is written as bytes");
+static_assert(sizeof(Header) == 28, "the header is written as bytes");
 
 TsdfSettings settings_of(const CheckedReader& reader, const Header& header) {
   TsdfSettings settings;
@@ -32,7 +31,6 @@ TsdfSettings settings_of(const CheckedReader& reader, const Header& header) {
   settings.max_weight = header.max_weight;
   settings.min_depth_m = header.min_depth_m;
   settings.max_depth_m = header.max_depth_m;
-  settings.allocation_stride_px = header.allocation_stride_px;
   settings.max_blocks = header.max_blocks;
   try {
     settings.validate();
@@ -60,7 +58,6 @@ void TsdfVolume::save(std::ostream& stream) const {
   header.max_weight = settings_.max_weight;
   header.min_depth_m = settings_.min_depth_m;
   header.max_depth_m = settings_.max_depth_m;
-  header.allocation_stride_px = settings_.allocation_stride_px;
   header.max_blocks = settings_.max_blocks;
   CheckedWriter writer(stream, kMapFormat);
   writer.write(header);

@@ -163,8 +163,7 @@ IntegrationStats TsdfVolume::integrate(const Frame& frame, const SE3& world_from
   {
     const ScopedStage stage(context_, "fusion/allocate");
     const int wanted = dispatch(context_, [&](auto on) {
-      return TsdfAlgorithms<typename decltype(on)::Executor>::find_new_blocks(context_, view(), camera, settings_.allocation_stride_px,
-                                                                              *scratch_);
+      return TsdfAlgorithms<typename decltype(on)::Executor>::find_new_blocks(context_, view(), camera, *scratch_);
     });
     stats.num_new_blocks = std::min(wanted, settings_.max_blocks - num_blocks_);
     stats.num_blocks_refused = wanted - stats.num_new_blocks;

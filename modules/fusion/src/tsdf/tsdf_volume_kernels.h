@@ -14,7 +14,7 @@ struct TsdfAlgorithms {
   using Scratch = TsdfVolume::Scratch;
 
   /// Fills scratch.new_keys with the missing blocks that a frame wants; returns how many.
-  static int find_new_blocks(const Context& context, const TsdfView& volume, const PosedDepth& camera, int stride_px, Scratch& scratch);
+  static int find_new_blocks(const Context& context, const TsdfView& volume, const PosedDepth& camera, Scratch& scratch);
   /// Empties the hash table and enters all blocks.
   static void rebuild_table(const Context& context, const TsdfView& volume, const TsdfTables& tables);
   /// Gives blocks [first, volume.num_blocks) the keys in scratch.new_keys, clears them and enters them into the hash table.
@@ -36,11 +36,10 @@ void reserve_claims(const Executor& exec, std::size_t num_claims, TsdfVolume::Sc
 }
 
 template <class Executor>
-int TsdfAlgorithms<Executor>::find_new_blocks(const Context& context, const TsdfView& volume, const PosedDepth& camera, int stride_px,
-                                              Scratch& scratch) {
+int TsdfAlgorithms<Executor>::find_new_blocks(const Context& context, const TsdfView& volume, const PosedDepth& camera, Scratch& scratch) {
   const Executor exec(context);
-  const int num_columns = (camera.depth.width + stride_px - 1) / stride_px;
-  const int num_rows = (camera.depth.height + stride_px - 1) / stride_px;
+  const int num_columns = (camera.depth.width + kAllocationStridePx - 1) / kAllocationStridePx;
+  const int num_rows = (camera.depth.height + kAllocationStridePx - 1) / kAllocationStridePx;
   const float half_block_m = 0.5F * volume.voxel_size_m * static_cast<float>(kBlockSide);
   const int num_steps = 1 + static_cast<int>(std::ceil(2.0F * volume.truncation_m / half_block_m - 1e-3F));
   const std::size_t num_samples = static_cast<std::size_t>(num_columns) * static_cast<std::size_t>(num_rows);
@@ -51,8 +50,8 @@ int TsdfAlgorithms<Executor>::find_new_blocks(const Context& context, const Tsdf
   scratch.new_keys.resize(num_candidates);
   reserve_claims(exec, num_candidates, scratch);
   const ClaimTable claims{scratch.claims.data(), scratch.log2_claims};
-  exec.for_each(num_samples, CollectWantedBlocks{volume, camera, stride_px, num_columns, num_steps, claims, scratch.claimed_slots.data(),
-                                                 scratch.claimed.data()});
+  exec.for_each(num_samples,
+                CollectWantedBlocks{volume, camera, num_columns, num_steps, claims, scratch.claimed_slots.data(), scratch.claimed.data()});
   exec.exclusive_scan(Span<const std::uint32_t>(scratch.claimed.data(), num_candidates),
                       Span<std::uint32_t>(scratch.offsets.data(), num_candidates + 1));
   const std::size_t num_wanted = scratch.offsets.read(context, num_candidates);

@@ -21,16 +21,11 @@ struct PoseRefinerSettings {
   int max_candidates = 16;
   /// Of those, how many are refined to the end.
   int num_finalists = 3;
-  /// First, candidates are aligned and ranked in images reduced by this divisor.
+  /// First, candidates are aligned and ranked in images reduced by this divisor; finalists then in images twice as large.
   int coarse_divisor = 8;
-  /// Finalists are aligned and rated in images reduced by this divisor.
-  int fine_divisor = 4;
   /// A second, different pose that is good enough, too, must leave at least this many times as much of the texture unexplained (1 less its
   /// correlation) as the best, or the place is ambiguous and neither is believed.
   float ambiguity_ratio = 2.0F;
-  /// However sure a relocaliser is of a proposal, it counts as evidence of this probability at most: equal furniture deceives it, too.
-  /// 0.5 leaves the decision to the map alone.
-  float max_trust = 0.97F;
   /// Where nothing is good enough, starts up to this far from the best pose are tried along the translation that its surfaces resist least:
   /// a view half of which is unmapped slides along a table until all of it is mapped.
   float slide_reach_m = 1.2F;
@@ -42,20 +37,16 @@ struct PoseRefinerSettings {
     v(&PoseRefinerSettings::num_finalists, "num_finalists", "Proposals that are refined to the end, at most (T: replay_sequence, kitchen).",
       Range{1, 1000});
     v(&PoseRefinerSettings::coarse_divisor, "coarse_divisor",
-      "Reduction of the images in which all candidates are ranked (T: replay_sequence, kitchen).", Range{1, 32});
-    v(&PoseRefinerSettings::fine_divisor, "fine_divisor",
-      "Reduction of the images in which finalists are rated (T: replay_sequence, kitchen).", Range{1, 32});
+      "Reduction of the images in which all candidates are ranked; half of it for those that are rated (T: replay_sequence, kitchen).",
+      Range{1, 32});
     v(&PoseRefinerSettings::ambiguity_ratio, "ambiguity_ratio",
       "Lead in unexplained texture over the next different pose (T: relocalisation_benchmark, stairs).", Range{1.0, 100.0});
-    v(&PoseRefinerSettings::max_trust, "max_trust",
-      "Most that a relocaliser's confidence counts for; 0.5 for nothing (T: relocalisation_benchmark, kitchen, teddy and rooms).",
-      Range{0.5, 0.999});
     v(&PoseRefinerSettings::slide_reach_m, "slide_reach_m",
       "How far from the best pose, to both sides, others are tried [m]; 0 for none (T: relocalisation_benchmark, kitchen).",
       Range{0.0, 10.0});
   }
   /// Throws InvalidSettings naming the field, its value and its range.
-  void validate() const;
+  void validate() const { validate_settings(*this); }
 };
 
 /// A proposal after refinement.
@@ -76,6 +67,10 @@ struct RefinedPose {
 inline constexpr float kSamePoseM = 0.05F;
 /// The same for rotations [deg].
 inline constexpr float kSamePoseDeg = 5.0F;
+
+/// However sure a relocaliser is of a proposal, it counts as evidence of this probability at most: equal furniture deceives it, too (T:
+/// relocalisation_benchmark, kitchen, teddy and rooms).
+inline constexpr float kMaxTrust = 0.97F;
 
 /// Poses from which less than this part of the frame falls on the map are refused outright: what little there is agrees easily (T:
 /// train_quality_gate; R: 0.1).

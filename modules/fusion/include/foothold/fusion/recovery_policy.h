@@ -41,28 +41,26 @@ struct RecoveryDecision {
 /// does from three (T: replay_sequence, office).
 inline constexpr int kConfirmingViews = 2;
 
+/// Good frames in a row after a single poor one before the map may change again (T: replay_sequence, kitchen).
+inline constexpr int kSettleFramesAfterPoor = 3;
+
+/// While settling, the relocaliser is asked for a second opinion every so many frames (T: replay_sequence, kitchen).
+inline constexpr int kConfirmInterval = 3;
+
 /// How long a pose must be good or poor before the state changes.
 struct RecoverySettings {
   /// Good frames in a row after a recovery before the map may change again.
   int settle_frames = 10;
-  /// The same after a single poor frame.
-  int settle_frames_after_poor = 3;
   /// Frames in a row that may be tracked poorly before the camera counts as lost; of a recovered pose that is not confirmed yet, a fifth of
   /// them.
   int max_poor_frames = 30;
-  /// While settling, the relocaliser is asked for a second opinion every so many frames; 0 for never.
-  int confirm_interval = 3;
 
   /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
     v(&RecoverySettings::settle_frames, "settle_frames", "Good frames after a recovery before the map may change (R).", Range{0, 1000});
-    v(&RecoverySettings::settle_frames_after_poor, "settle_frames_after_poor",
-      "Good frames after a poor one before the map may change (T: replay_sequence, kitchen).", Range{0, 1000});
     v(&RecoverySettings::max_poor_frames, "max_poor_frames",
       "Poor frames in a row before the camera counts as lost (T: replay_sequence, kitchen).", Range{1, 100000});
-    v(&RecoverySettings::confirm_interval, "confirm_interval",
-      "Frames between second opinions while settling; 0 for none (T: replay_sequence, kitchen).", Range{0, 1000});
   }
   /// Throws InvalidSettings naming the field, its value and its range.
   void validate() const { validate_settings(*this); }

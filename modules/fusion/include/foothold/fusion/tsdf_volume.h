@@ -43,8 +43,6 @@ struct TsdfSettings {
   float min_depth_m = 0.2F;
   /// Farther depth readings likewise [m]: a structured-light camera's error grows with the square of depth.
   float max_depth_m = 5.0F;
-  /// Every so many pixels, in both directions, allocate the blocks along their ray.
-  int allocation_stride_px = 4;
   /// Blocks held at most; frames that need more are still fused into those that exist.
   int max_blocks = 1 << 20;
 
@@ -57,8 +55,6 @@ struct TsdfSettings {
     v(&TsdfSettings::max_weight, "max_weight", "Observations averaged at most (T: fusion_benchmark, kitchen; R: 100).", Range{1, 255});
     v(&TsdfSettings::min_depth_m, "min_depth_m", "Nearer depth is ignored [m] (R).", Range{0.01, 10.0});
     v(&TsdfSettings::max_depth_m, "max_depth_m", "Farther depth is ignored [m] (T: fusion_benchmark, kitchen).", Range{0.1, 100.0});
-    v(&TsdfSettings::allocation_stride_px, "allocation_stride_px", "Every so many pixels allocate blocks (T: fusion_benchmark, kitchen).",
-      Range{1, 16});
     v(&TsdfSettings::max_blocks, "max_blocks", "Blocks of 8 x 8 x 8 voxels held at most, 3 KB each.", Range{1, 1 << 24});
   }
   /// The readings that are fused.
