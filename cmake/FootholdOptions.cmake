@@ -95,7 +95,9 @@ if(NOT FOOTHOLD_IO STREQUAL "OFF")
   find_package(OpenCV QUIET COMPONENTS core imgproc imgcodecs calib3d highgui ml)
   find_package(ZLIB QUIET)
   find_package(CLI11 QUIET)
+  set(CMAKE_MESSAGE_LOG_LEVEL NOTICE)  # Debian's libimath-dev names a Python library of another package, at length
   find_package(OpenEXR 3 QUIET)  # optional: depth in EXR images
+  unset(CMAKE_MESSAGE_LOG_LEVEL)
   foreach(package OpenCV ZLIB nlohmann_json CLI11)
     if(NOT ${package}_FOUND)
       string(APPEND missing " ${package}")

@@ -70,7 +70,7 @@ struct ViewKey {
 /// One picture's worth of content. Whatever is empty is left out or said to be missing.
 struct ViewContents {
   std::string title;       ///< what is being reconstructed
-  std::string frame_text;  ///< such as "frame 312 of 1000"
+  std::string frame_text;  ///< such as "frame 312"
 
   Image<Rgb8> colour;    ///< as the camera sees it
   Image<float> depth_m;  ///< z [m]

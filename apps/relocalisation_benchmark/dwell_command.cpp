@@ -6,8 +6,8 @@
 
 #include "commands.h"
 #include "foothold/evaluation/train_test.h"
-#include "foothold/synthetic/sensor_model.h"
 #include "growth.h"
+#include "memory_input.h"
 #include "outputs.h"
 #include "places.h"
 #include "scene_tables.h"
@@ -24,38 +24,9 @@ struct DwellOptions {
   std::string test = "500:600";
 };
 
-/// Plays a few frames to and fro, each time with fresh noise: a camera held still, or nearly so.
-class DwellingSource : public FrameSource {
- public:
-  DwellingSource(FrameList frames, int num_played, std::uint64_t seed) : frames_(std::move(frames)), num_played_(num_played), seed_(seed) {}
-
-  ReadStatus read(RgbdFrame& frame) override {
-    if (next_ == num_played_) return ReadStatus::kEnd;
-    const int there_and_back = std::max(1, 2 * static_cast<int>(frames_.size()) - 2);
-    const int step = next_ % there_and_back;
-    frame = *frames_[static_cast<std::size_t>(std::min(step, there_and_back - step))];
-    add_noise(sensor_model(1), seed_, next_, frame.depth, frame.colour);
-    frame.index = next_++;
-    return ReadStatus::kFrame;
-  }
-
- private:
-  FrameList frames_;
-  int num_played_;
-  std::uint64_t seed_;
-  int next_ = 0;
-};
-
-EvaluationInput dwelling_input(const EvaluationInput& input, int num_played, std::uint64_t seed) {
-  const auto open = [input, num_played, seed]() -> std::unique_ptr<FrameSource> {
-    return std::make_unique<DwellingSource>(read_frames(input), num_played, seed);
-  };
-  return {input.name, num_played, open};
-}
-
 /// The parts of the recording.
 struct DwellInputs {
-  EvaluationInput stay;
+  FrameList stay;
   EvaluationInput learn;
   EvaluationInput test;
 };
@@ -63,7 +34,7 @@ struct DwellInputs {
 GrowthPoint run_amount(const DwellOptions& options, const Method& method, const MethodInputs& inputs, const DwellInputs& parts,
                        int amount) {
   std::vector<EvaluationInput> training;
-  if (amount > 0) training.push_back(dwelling_input(parts.stay, amount, options.common.seed));
+  if (amount > 0) training.push_back(noisy_input("standing", parts.stay, amount, options.common.seed));
   training.push_back(parts.learn);
   const Protocol protocol = [&](Relocaliser& relocaliser, const ProtocolOptions& protocol_options) {
     return run_train_test(relocaliser, training, {parts.test}, 0, protocol_options);
@@ -85,11 +56,11 @@ int run_dwell(const DwellOptions& options) {
   check_outputs(options.common);
   const std::vector<Method> methods = find_methods(options.common.methods);
   const MethodInputs inputs = method_inputs(options.common, methods);
-  const DwellInputs parts = {open_input(options.common, options.sequence, options.stay),
-                             open_input(options.common, options.sequence, options.learn),
-                             open_input(options.common, options.sequence, options.test)};
+  const EvaluationInput stay = open_input(options.common, options.sequence, options.stay);
   std::vector<GrowthCurve> curves;
   try {
+    const DwellInputs parts = {read_frames(stay), open_input(options.common, options.sequence, options.learn),
+                               open_input(options.common, options.sequence, options.test)};
     for (const Method& method : methods) {
       curves.push_back({method.name, {}, {}});
       for (const int amount : options.amounts) curves.back().points.push_back(run_amount(options, method, inputs, parts, amount));
@@ -97,7 +68,7 @@ int run_dwell(const DwellOptions& options) {
   } catch (const Interrupted&) {
     return apps::kInterrupted;
   }
-  std::printf("%s learnt again and again with fresh noise, then %s learnt and %s tested\n\n%s", parts.stay.name.c_str(),
+  std::printf("%s learnt again and again with fresh noise, then %s learnt and %s tested\n\n%s", stay.name.c_str(),
               options.learn.c_str(), options.test.c_str(), growth_table(curves, "standing frames").c_str());
   std::vector<std::pair<std::string, std::string>> described = describe_options(options.common);
   for (const auto& [name, value] : {std::pair("stay", &options.stay), std::pair("learn", &options.learn), std::pair("test", &options.test)})

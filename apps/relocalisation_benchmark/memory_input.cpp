@@ -13,6 +13,7 @@
 #include "common/progress_bar.h"
 #include "foothold/base/contract.h"
 #include "foothold/base/error.h"
+#include "foothold/synthetic/sensor_model.h"
 #include "run_methods.h"
 
 namespace foothold::benchmark {
@@ -30,6 +31,27 @@ class MemorySource : public FrameSource {
  private:
   FrameList frames_;
   std::size_t next_ = 0;
+};
+
+class NoisySource : public FrameSource {
+ public:
+  NoisySource(FrameList frames, int num_played, std::uint64_t seed) : frames_(std::move(frames)), num_played_(num_played), seed_(seed) {}
+
+  ReadStatus read(RgbdFrame& frame) override {
+    if (next_ == num_played_) return ReadStatus::kEnd;
+    const int there_and_back = std::max(1, 2 * static_cast<int>(frames_.size()) - 2);
+    const int step = next_ % there_and_back;
+    frame = *frames_[static_cast<std::size_t>(std::min(step, there_and_back - step))];
+    add_noise(sensor_model(1), seed_, next_, frame.depth, frame.colour);
+    frame.index = next_++;
+    return ReadStatus::kFrame;
+  }
+
+ private:
+  FrameList frames_;
+  int num_played_;
+  std::uint64_t seed_;
+  int next_ = 0;
 };
 
 /// The mean colour of a block of pixels.
@@ -100,6 +122,13 @@ EvaluationInput memory_input(const std::string& name, FrameList frames) {
   const int num_frames = static_cast<int>(frames.size());
   return {name, num_frames,
           [frames = std::move(frames)]() -> std::unique_ptr<FrameSource> { return std::make_unique<MemorySource>(frames); }};
+}
+
+EvaluationInput noisy_input(const std::string& name, FrameList frames, int num_played, std::uint64_t seed) {
+  const auto open = [frames = std::move(frames), num_played, seed]() -> std::unique_ptr<FrameSource> {
+    return std::make_unique<NoisySource>(frames, num_played, seed);
+  };
+  return {name, num_played, open};
 }
 
 RgbdFrame reduce_frame(const RgbdFrame& frame, int divisor) {

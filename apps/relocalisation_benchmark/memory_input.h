@@ -4,6 +4,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +32,9 @@ void read_all(const std::vector<ReadJob>& jobs, int num_threads);
 
 /// Plays frames that are in memory.
 EvaluationInput memory_input(const std::string& name, FrameList frames);
+
+/// Plays `num_played` of frames that are in memory, to and fro, each time with fresh noise: a camera that sees again what it saw.
+EvaluationInput noisy_input(const std::string& name, FrameList frames, int num_played, std::uint64_t seed);
 
 /// The frame as a camera of `1 / divisor` times the resolution would see it: depth of one pixel of each block, colour averaged.
 /// @pre divisor > 0 and at most the frame's smaller side.

@@ -6,6 +6,7 @@
 
 #include "commands.h"
 #include "foothold/base/error.h"
+#include "foothold/base/random.h"
 #include "foothold/evaluation/train_test.h"
 #include "foothold/synthetic/synthetic_sequence.h"
 #include "growth.h"
@@ -22,6 +23,7 @@ constexpr int kFirstRoom = 100;
 struct ScaleOptions {
   SceneOptions scenes;
   std::vector<int> amounts = {1, 2, 4, 8, 16, 24};
+  std::vector<int> laps;  ///< how often all places are learnt, one run for each number; empty for once, with each number of places
   std::string size = "320x240";
   RoomViews views;
   int first_room = kFirstRoom;
@@ -67,13 +69,25 @@ std::vector<Scene> scenes_to_learn(ScaleOptions options) {
   return scenes;
 }
 
-/// Learns places from nothing, and tests those of them that have tests.
-GrowthPoint run_places(const ScaleOptions& options, const Method& method, const MethodInputs& inputs, const std::vector<Place>& places,
-                       const std::string& label) {
+/// The frames of all places, lap after lap; from the second on with fresh noise.
+std::vector<EvaluationInput> training_laps(const std::vector<Place>& places, int num_laps, std::uint64_t seed) {
   std::vector<EvaluationInput> training;
+  for (int lap = 0; lap < num_laps; ++lap) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      const auto& [name, origin_world, frames, tests] = places[i];
+      const std::uint64_t noise = derive_seed(derive_seed(seed, static_cast<std::uint64_t>(lap)), i);
+      training.push_back(lap == 0 ? memory_input(name, frames) : noisy_input(name, frames, static_cast<int>(frames.size()), noise));
+    }
+  }
+  return training;
+}
+
+/// Learns places from nothing, lap after lap, and tests those of them that have tests.
+GrowthPoint run_places(const ScaleOptions& options, const Method& method, const MethodInputs& inputs, const std::vector<Place>& places,
+                       int num_laps, const std::string& label) {
+  const std::vector<EvaluationInput> training = training_laps(places, num_laps, options.scenes.common.seed);
   std::vector<EvaluationInput> tests;
   for (const Place& place : places) {
-    training.push_back(memory_input(place.name, place.training));
     if (!place.tests.empty()) tests.push_back(memory_input(place.name, place.tests));
   }
   const Protocol protocol = [&](Relocaliser& relocaliser, const ProtocolOptions& protocol_options) {
@@ -95,7 +109,7 @@ GrowthPoint run_alone(const ScaleOptions& options, const Method& method, const M
   GrowthPoint all;
   for (const Place& place : places) {
     if (place.tests.empty()) continue;
-    const GrowthPoint one = run_places(options, method, inputs, {place}, place.name + " alone");
+    const GrowthPoint one = run_places(options, method, inputs, {place}, 1, place.name + " alone");
     all.beliefs.num_right += one.beliefs.num_right;
     all.beliefs.num_unsure += one.beliefs.num_unsure;
     all.beliefs.num_wrong_here += one.beliefs.num_wrong_here;
@@ -111,9 +125,15 @@ GrowthCurve run_curve(const ScaleOptions& options, const Method& method, const M
   GrowthCurve curve;
   curve.method = method.name;
   curve.alone = run_alone(options, method, inputs, places);
-  for (const int amount : options.amounts) {
-    const std::string label = std::to_string(amount) + (amount == 1 ? " place" : " places");
-    curve.points.push_back(run_places(options, method, inputs, {places.begin(), places.begin() + amount}, label));
+  if (options.laps.empty()) {
+    for (const int amount : options.amounts) {
+      const std::string label = std::to_string(amount) + (amount == 1 ? " place" : " places");
+      curve.points.push_back(run_places(options, method, inputs, {places.begin(), places.begin() + amount}, 1, label));
+    }
+  }
+  for (const int laps : options.laps) {
+    curve.points.push_back(run_places(options, method, inputs, places, laps, std::to_string(laps) + (laps == 1 ? " lap" : " laps")));
+    curve.points.back().amount = laps;
   }
   return curve;
 }
@@ -151,7 +171,10 @@ int run_scale(ScaleOptions options) {
   check_outputs(options.scenes.common);
   const std::vector<Method> methods = find_methods(options.scenes.common.methods);
   const MethodInputs inputs = method_inputs(options.scenes.common, methods);
+  if (!options.laps.empty() && options.amounts.size() != 1)
+    throw InvalidSettings("--laps: got " + std::to_string(options.amounts.size()) + " numbers of places with it, expected one --rooms N");
   const std::vector<Scene> scenes = scenes_to_learn(options);
+  const std::string amount_name = options.laps.empty() ? "places" : "laps";
   std::vector<GrowthCurve> curves;
   std::vector<Place> places;
   try {
@@ -161,14 +184,14 @@ int run_scale(ScaleOptions options) {
     return apps::kInterrupted;
   }
   std::printf("Places %g m apart in one world, the first %d of them tested\n\n%s\n%s", static_cast<double>(options.spacing_m),
-              std::min(options.num_tested, static_cast<int>(places.size())), growth_table(curves, "places").c_str(),
-              belief_table(curves, "places").c_str());
+              std::min(options.num_tested, static_cast<int>(places.size())), growth_table(curves, amount_name).c_str(),
+              belief_table(curves, amount_name).c_str());
   Json json = document_head("scale", describe(options));
   json["places"] = places_json(places);
-  json["methods"] = growth_json(curves, "places");
-  std::printf("%s", write_documents(options.scenes.common, json, growth_csv(curves, "places")).c_str());
+  json["methods"] = growth_json(curves, amount_name);
+  std::printf("%s", write_documents(options.scenes.common, json, growth_csv(curves, amount_name)).c_str());
   if (!options.scenes.common.plot_file.empty()) {
-    write_growth_plot(options.scenes.common.plot_file, curves, "places learnt");
+    write_growth_plot(options.scenes.common.plot_file, curves, amount_name + " learnt");
     std::printf("picture: %s\n", options.scenes.common.plot_file.c_str());
   }
   return apps::kSuccess;
@@ -179,6 +202,12 @@ void add_room_options(apps::CommandLine& command, ScaleOptions& options) {
       .comma_separated()
       .range(1, 100000)
       .show_default();
+  command
+      .add_option("--laps", options.laps,
+                  "How often to learn the N places of --rooms N, one after another and again, from the second time on with fresh noise; one "
+                  "run for each number")
+      .comma_separated()
+      .range(1, 100000);
   command.add_option("--first-room", options.first_room, "Rooms are synthetic:training-K from this K on").range(0, 1000000).show_default();
   command.add_option("--identical", options.identical, "Make all places this room, such as office, differing in some furniture")
       .type_name("ROOM");

@@ -81,7 +81,7 @@ class Replayer {
         context_(apps::make_context(options.device)),
         sequence_(open_sequence(options.sequence, apps::make_context(options.device), options.recording)),
         indices_(frame_indices(*sequence_, options.stride)),
-        view_(context_, options, static_cast<int>(indices_.size())) {
+        view_(context_, options) {
     if (indices_.empty()) throw FileError(options.sequence + ": expected at least one frame");
   }
 

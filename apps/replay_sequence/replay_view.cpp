@@ -31,8 +31,8 @@ void write_picture(const std::string& path, const cv::Mat& picture) {
 
 }  // namespace
 
-ReplayView::ReplayView(const Context& context, const ReplayOptions& options, int num_frames)
-    : monitor_(context), folder_(options.video_folder), title_(options.sequence), num_frames_(num_frames), every_(options.video_every) {
+ReplayView::ReplayView(const Context& context, const ReplayOptions& options)
+    : monitor_(context), folder_(options.video_folder), title_(options.sequence), every_(options.video_every) {
   if (!folder_.empty()) {
     std::error_code error;
     std::filesystem::create_directory(folder_, error);
@@ -54,7 +54,7 @@ void ReplayView::add(const RgbdFrame& frame, const FusionPipeline& pipeline, con
 void ReplayView::draw(const RgbdFrame& frame, const FusionPipeline& pipeline) {
   ViewContents contents = monitor_.contents(frame, pipeline);
   contents.title = title_;
-  contents.frame_text = "frame " + std::to_string(frame.index) + " of " + std::to_string(num_frames_);
+  contents.frame_text = "frame " + std::to_string(frame.index);
   contents.notice = notice_;
   contents.warnings = apps::warnings();
   contents.counters = run_;

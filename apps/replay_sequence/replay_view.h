@@ -17,7 +17,7 @@ namespace foothold::replay {
 class ReplayView {
  public:
   /// Opens the window and makes the folder. @throws DeviceError, FileError
-  ReplayView(const Context& context, const ReplayOptions& options, int num_frames);
+  ReplayView(const Context& context, const ReplayOptions& options);
 
   /// Shows a frame that was processed.
   /// @param event  What happened to the camera before it, in words; empty if nothing did.
@@ -43,7 +43,6 @@ class ReplayView {
   std::string title_;
   std::string run_;
   std::string notice_;
-  int num_frames_;
   int every_;
   int num_added_ = 0;
   bool show_help_ = false;

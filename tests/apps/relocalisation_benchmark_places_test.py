@@ -67,6 +67,15 @@ class ScaleTest(PlacesTest):
         self.assertEqual((results["settings"]["identical"], results["settings"]["differing"]), ("office", 0.3))
         self.check_refused(*ROOMS, "--identical", "castle", says=["castle", "office"])
 
+    def test_laps_learn_the_same_places_again_with_fresh_noise(self):
+        points = self.run_json(*ROOMS, "--rooms", "2", "--laps", "1,3", "--csv", "points.csv")["methods"]["forest"]["points"]
+        self.assertEqual([(p["laps"], p["num_trained"], p["num_tested"]) for p in points], [(1, 12, 6), (3, 36, 6)])
+        once = self.run_json(*ROOMS, "--rooms", "2")["methods"]["forest"]["points"][0]
+        self.assertEqual(without_timing([once])[0]["recall"], without_timing(points[:1])[0]["recall"])
+        self.assertGreater(points[1]["state_mb"], points[0]["state_mb"])  # another noise falls into other leaves
+        self.assertLess(points[1]["state_mb"], 3 * points[0]["state_mb"])
+        self.check_refused(*ROOMS, "--rooms", "1,2", "--laps", "2", says=["--laps", "--rooms"])
+
     def test_every_place_is_also_learnt_alone(self):
         method = self.run_json(*ROOMS, "--rooms", "2", "--plot", "plot.png")["methods"]["forest"]
         self.assertEqual((method["alone"]["num_trained"], method["alone"]["num_tested"]), (12, 6))

@@ -127,6 +127,49 @@ TEST_CASE("LeafReservoirs: stores min(seen, capacity) points, each offered to th
   }
 }
 
+TEST_CASE("LeafReservoirs: thinning keeps every second point, none of leaves with few, and what follows is appended") {
+  Random random = test::test_random();
+  constexpr int kLeaves = 60;
+  constexpr int kMinPoints = 8;
+  const Context context = context_of(1);
+  LeafReservoirs reservoirs(context, kLeaves, small_reservoirs(80), 42);
+  for (std::uint32_t frame = 0; frame < 6; ++frame)
+    reservoirs.insert(context, random_examples(random, 1000 * frame, 200 + 100 * frame, 2, kLeaves));
+  const std::size_t num_bytes = reservoirs.state_bytes(context);
+  std::vector<std::vector<ReservoirPoint>> before;
+  for (std::uint32_t leaf = 0; leaf < kLeaves; ++leaf) before.push_back(points_of(reservoirs.view(), leaf));
+  REQUIRE(reservoirs.thin(context, kMinPoints));
+  REQUIRE(reservoirs.state_bytes(context) < num_bytes);
+  for (std::uint32_t leaf = 0; leaf < kLeaves; ++leaf) {
+    const std::vector<ReservoirPoint> kept = points_of(reservoirs.view(), leaf);
+    REQUIRE(kept.size() == (before[leaf].size() < kMinPoints ? 0 : before[leaf].size() / 2));
+    REQUIRE(reservoirs.view().num_seen[leaf] == kept.size());
+    for (std::size_t i = 0; i < kept.size(); ++i) REQUIRE(same(kept[i], before[leaf][2 * i]));
+  }
+  const std::string saved = test::checked_bytes([&](CheckedWriter& writer) { reservoirs.save(writer); });
+  LeafReservoirs loaded(context, kLeaves, small_reservoirs(80), 42);
+  test::read_checked(saved, [&](CheckedReader& reader) { loaded.load(reader); });
+  require_same(loaded, reservoirs);
+
+  const TrainingExamples more = random_examples(random, 9000, 100, 2, kLeaves);
+  reservoirs.insert(context, more);
+  loaded.insert(context, more);
+  require_same(loaded, reservoirs);
+}
+
+TEST_CASE("LeafReservoirs: thinning changes nothing where it would give back little") {
+  Random random = test::test_random();
+  constexpr int kLeaves = 60;
+  const Context context = context_of(1);
+  LeafReservoirs reservoirs(context, kLeaves, small_reservoirs(80), 42);
+  REQUIRE_FALSE(reservoirs.thin(context, 8));
+  for (std::uint32_t frame = 0; frame < 6; ++frame) reservoirs.insert(context, random_examples(random, 1000 * frame, 500, 2, kLeaves));
+  int num_times = 0;
+  while (reservoirs.thin(context, 1)) ++num_times;
+  REQUIRE(num_times == 3);  // 80 to 40, 20 and 10 points: one block
+  for (std::uint32_t leaf = 0; leaf < kLeaves; ++leaf) REQUIRE(reservoirs.view().num_seen[leaf] == 10);
+}
+
 TEST_CASE("LeafReservoirs: every point offered is kept equally likely") {
   constexpr int kLeaves = 4000;
   constexpr std::uint32_t kOffered = 96;

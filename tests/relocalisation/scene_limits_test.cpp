@@ -27,43 +27,43 @@ SceneLimits limits_of(int budget_mb, int examples_per_view) {
   return SceneLimits(settings);
 }
 
-TEST_CASE("SceneLimits: detail goes at half of the budget, new places at 7/8 of it, and each is said once") {
+TEST_CASE("SceneLimits: all is learnt until detail must go, then little, and nothing where no detail is left; each is said once") {
   LoggedWarnings log;
   const Context context = log.context();
   SceneLimits limits = limits_of(80, 255);
   REQUIRE(limits.bounds_memory());
+  REQUIRE_FALSE(limits.is_full(70 * kMegabyte - 1));
+  REQUIRE(limits.is_full(70 * kMegabyte));
   REQUIRE(limits.detail(context, 0, 1) == Detail::kFull);
-  REQUIRE(limits.detail(context, 40 * kMegabyte - 1, 2) == Detail::kFull);
+  REQUIRE(limits.detail(context, 70 * kMegabyte - 1, 2) == Detail::kFull);
   REQUIRE(log.warnings.empty());
-  for (const std::int64_t frame : {3, 4}) REQUIRE(limits.detail(context, 40 * kMegabyte, frame) == Detail::kSparse);
+  for (const std::int64_t frame : {3, 4}) {
+    limits.watch_thinning(context, 71 * kMegabyte, frame);
+    REQUIRE(limits.detail(context, 60 * kMegabyte, frame) == Detail::kSparse);
+  }
   REQUIRE(log.warnings.size() == 1);
-  REQUIRE(test::contains(log.warnings[0], "frame 3: the relocaliser's scene holds 40 MB, and memory_budget_mb is 80"));
+  REQUIRE(test::contains(log.warnings[0], "frame 3: the relocaliser's scene holds 71 MB, and memory_budget_mb is 80"));
   REQUIRE(test::contains(log.warnings[0], "at most 16 examples of a view"));
-  REQUIRE(limits.detail(context, 70 * kMegabyte - 1, 5) == Detail::kSparse);
   for (const std::int64_t frame : {6, 7}) REQUIRE(limits.detail(context, 70 * kMegabyte, frame) == Detail::kNone);
   REQUIRE(log.warnings.size() == 2);
   REQUIRE(test::contains(log.warnings[1], "frame 6: the relocaliser's scene holds 70 MB, and memory_budget_mb is 80"));
   REQUIRE(test::contains(log.warnings[1], "nothing is learnt"));
+  REQUIRE(limits.detail(context, 60 * kMegabyte, 8) == Detail::kSparse);
 }
 
-TEST_CASE("SceneLimits: sparse is never more than full, and says nothing where it is as much") {
+TEST_CASE("SceneLimits: sparse is never more than full") {
   REQUIRE(limits_of(80, 255).examples_per_view(Detail::kFull) == 255);
   REQUIRE(limits_of(80, 255).examples_per_view(Detail::kSparse) == kSparseExamplesPerView);
   REQUIRE(limits_of(80, 0).examples_per_view(Detail::kFull) == 0);
   REQUIRE(limits_of(80, 0).examples_per_view(Detail::kSparse) == kSparseExamplesPerView);
-  LoggedWarnings log;
-  SceneLimits few = limits_of(80, 8);
-  REQUIRE(few.examples_per_view(Detail::kSparse) == 8);
-  REQUIRE(few.detail(log.context(), 50 * kMegabyte, 1) == Detail::kSparse);
-  REQUIRE(log.warnings.empty());
-  REQUIRE(few.detail(log.context(), 70 * kMegabyte, 2) == Detail::kNone);
-  REQUIRE(log.warnings.size() == 1);
+  REQUIRE(limits_of(80, 8).examples_per_view(Detail::kSparse) == 8);
 }
 
 TEST_CASE("SceneLimits: without a budget all is learnt") {
   LoggedWarnings log;
   SceneLimits limits = limits_of(0, 255);
   REQUIRE_FALSE(limits.bounds_memory());
+  REQUIRE_FALSE(limits.is_full(1000000 * kMegabyte));
   REQUIRE(limits.detail(log.context(), 1000000 * kMegabyte, 1) == Detail::kFull);
   REQUIRE(log.warnings.empty());
 }

@@ -47,7 +47,7 @@ struct ForestRelocaliser::State {
 
   /// @param explanation  Output: what the answer was made from; nullptr for none.
   std::vector<PoseEstimate> answer(const Frame& frame, Explanation* explanation);
-  /// How much of a frame may be learnt.
+  /// Makes room for a frame where memory is bounded, and says how much of it may be learnt.
   Detail detail(const Frame& frame);
   /// Chooses the examples of a frame that are new to a place.
   void sample(const Frame& frame, const SE3& world_from_camera, int examples_per_view, Place& place);
@@ -81,7 +81,12 @@ std::vector<PoseEstimate> ForestRelocaliser::State::answer(const Frame& frame, E
 
 Detail ForestRelocaliser::State::detail(const Frame& frame) {
   if (!limits.bounds_memory()) return Detail::kFull;
-  return limits.detail(context, places.count_bytes(learning_place), frame.index);  // other places are as they were
+  std::size_t bytes = places.count_bytes(learning_place);  // other places are as they were
+  while (limits.is_full(bytes) && places.thin_largest()) {
+    limits.watch_thinning(context, bytes, frame.index);
+    bytes = places.count_bytes(learning_place);
+  }
+  return limits.detail(context, bytes, frame.index);
 }
 
 void ForestRelocaliser::State::sample(const Frame& frame, const SE3& world_from_camera, int examples_per_view, Place& place) {
@@ -118,6 +123,7 @@ bool ForestRelocaliser::State::learn(const Frame& frame, const SE3& world_from_c
   place.reservoirs.insert(context, examples);
   place.is_used = true;
   place.is_settled = false;
+  place.is_thin = false;
   return true;
 }
 

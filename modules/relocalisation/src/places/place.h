@@ -24,6 +24,7 @@ struct Place {
   Array<ReservoirPoint> latest;   ///< what the camera that was learnt last saw, on its pixel grid; (0, 0, 0) where there was no depth
   bool is_used = false;           ///< something was learnt
   bool is_settled = true;         ///< all that was learnt is in the modes
+  bool is_thin = false;           ///< thinning gave back little, and nothing was learnt since
   std::size_t counted_bytes = 0;  ///< by ScenePlaces::count_bytes()
 
   std::size_t state_bytes(const Context& context) const {

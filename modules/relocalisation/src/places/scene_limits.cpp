@@ -10,9 +10,10 @@
 namespace foothold {
 namespace {
 
-constexpr double kFullShare = 0.5;      ///< of the budget, up to which everything is learnt
-constexpr double kSparseShare = 0.875;  ///< up to which anything is
-constexpr double kTooMuch = 0.01;       ///< of a frame's examples beyond reach; stray readings of cameras are fewer
+constexpr double kFullShare = 0.875;  ///< of the budget
+constexpr double kTooMuch = 0.01;     ///< of a frame's examples beyond reach; stray readings of cameras are fewer
+
+double megabytes(std::size_t num_bytes) { return 1e-6 * static_cast<double>(num_bytes); }
 
 }  // namespace
 
@@ -21,21 +22,29 @@ int SceneLimits::examples_per_view(Detail detail) const {
   return detail == Detail::kSparse && is_fewer ? kSparseExamplesPerView : examples_per_view_;
 }
 
+bool SceneLimits::is_full(std::size_t state_bytes) const { return bounds_memory() && megabytes(state_bytes) >= kFullShare * budget_mb_; }
+
+void SceneLimits::watch_thinning(const Context& context, std::size_t state_bytes, std::int64_t frame_index) {
+  if (gave_up_detail_) return;
+  gave_up_detail_ = true;
+  const std::string sparse = std::to_string(examples_per_view(Detail::kSparse));
+  context.log(LogLevel::kWarning, reached(state_bytes, frame_index) + "; from here on detail makes room for new places: every second point " +
+                                      "is forgotten where most are held, and at most " + sparse + " examples of a view are learnt");
+}
+
 Detail SceneLimits::detail(const Context& context, std::size_t state_bytes, std::int64_t frame_index) {
-  const double used_mb = 1e-6 * static_cast<double>(state_bytes);
-  if (!bounds_memory() || used_mb < kFullShare * budget_mb_) return Detail::kFull;
-  const Detail detail = used_mb < kSparseShare * budget_mb_ ? Detail::kSparse : Detail::kNone;
-  bool& told = detail == Detail::kSparse ? told_sparse_ : told_none_;
-  const bool changes = detail == Detail::kNone || examples_per_view(detail) != examples_per_view_;
-  if (told || !changes) return detail;
-  told = true;
-  const std::string reached = "frame " + std::to_string(frame_index) + ": the relocaliser's scene holds " +
-                              std::to_string(std::lround(used_mb)) + " MB, and memory_budget_mb is " + std::to_string(budget_mb_);
-  const std::string sparse = "; from here on at most " + std::to_string(kSparseExamplesPerView) +
-                             " examples of a view are learnt, and none of views that have as many, so that there is room for new places";
-  const std::string none = "; from here on nothing is learnt: the camera is found where it was before, and nowhere else";
-  context.log(LogLevel::kWarning, reached + (detail == Detail::kSparse ? sparse : none));
-  return detail;
+  if (!is_full(state_bytes)) return gave_up_detail_ ? Detail::kSparse : Detail::kFull;
+  if (!told_none_) {
+    context.log(LogLevel::kWarning, reached(state_bytes, frame_index) + ", with no detail left to give up; from here on nothing is learnt: " +
+                                        "the camera is found where it was before, and nowhere else");
+  }
+  told_none_ = true;
+  return Detail::kNone;
+}
+
+std::string SceneLimits::reached(std::size_t state_bytes, std::int64_t frame_index) const {
+  return "frame " + std::to_string(frame_index) + ": the relocaliser's scene holds " + std::to_string(std::lround(megabytes(state_bytes))) +
+         " MB, and memory_budget_mb is " + std::to_string(budget_mb_);
 }
 
 void SceneLimits::watch_reach(const Context& context, std::size_t num_beyond_reach, std::size_t num_examples, std::int64_t frame_index) {

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "foothold/base/context.h"
 #include "foothold/relocalisation/settings.h"
@@ -27,8 +28,14 @@ class SceneLimits {
 
   bool bounds_memory() const { return budget_mb_ > 0; }
 
-  /// All up to half of the budget, few examples of a view up to 7/8 of it, then nothing. The rest is for the modes of what was learnt last,
+  /// Whether places must give up detail before more is learnt: 7/8 of the budget is used. The rest is for the modes of what was learnt last,
   /// which follow some frames later. @param state_bytes  memory of all places.
+  bool is_full(std::size_t state_bytes) const;
+
+  /// To be told when places gave up detail. @param state_bytes  before they did.
+  void watch_thinning(const Context& context, std::size_t state_bytes, std::int64_t frame_index);
+
+  /// All until detail had to be given up, few examples of a view after that, nothing if there is no room.
   Detail detail(const Context& context, std::size_t state_bytes, std::int64_t frame_index);
 
   /// Examples of a view to learn; 0 for no limit. @pre detail is not kNone.
@@ -38,9 +45,11 @@ class SceneLimits {
   void watch_reach(const Context& context, std::size_t num_beyond_reach, std::size_t num_examples, std::int64_t frame_index);
 
  private:
+  std::string reached(std::size_t state_bytes, std::int64_t frame_index) const;
+
   int budget_mb_;
   int examples_per_view_;
-  bool told_sparse_ = false;
+  bool gave_up_detail_ = false;
   bool told_none_ = false;
   bool told_reach_ = false;
 };

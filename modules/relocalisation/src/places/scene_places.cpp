@@ -49,6 +49,20 @@ std::size_t ScenePlaces::count_bytes(std::size_t place) {
   return sum;
 }
 
+bool ScenePlaces::thin_largest() {
+  for (;;) {
+    Place* largest = nullptr;
+    for (Place& place : places_) {
+      if (!place.is_thin && (largest == nullptr || place.counted_bytes > largest->counted_bytes)) largest = &place;
+    }
+    if (largest == nullptr) return false;
+    largest->is_thin = !largest->reservoirs.thin(context_, settings_.clustering.min_cluster_size);
+    if (largest->is_thin) continue;
+    largest->counted_bytes = largest->state_bytes(context_);
+    return true;
+  }
+}
+
 void ScenePlaces::save(CheckedWriter& writer) const {
   writer.write(static_cast<std::uint64_t>(places_.size()));
   for (const Place& place : places_) {

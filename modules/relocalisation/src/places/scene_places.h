@@ -37,6 +37,8 @@ class ScenePlaces {
   std::size_t state_bytes() const;
   /// The same, but every place but this one counts as when it was last asked for or loaded. Cheap however many there are.
   std::size_t count_bytes(std::size_t place);
+  /// Thins the place that takes the most memory, of those that have detail to give up. @return False if none has.
+  bool thin_largest();
   void clear() { places_.clear(); }
 
   void save(CheckedWriter& writer) const;

@@ -58,6 +58,41 @@ void LeafReservoirs::insert(const Context& context, const TrainingExamples& exam
   });
 }
 
+bool LeafReservoirs::thin(const Context& context, int min_points) {
+  constexpr std::size_t kLeastShare = 5;
+  std::vector<std::uint32_t> num_kept = num_seen_.to_host(context);
+  std::size_t num_blocks = 0;
+  std::size_t num_kept_blocks = 0;
+  for (std::uint32_t& count : num_kept) {
+    const int num_stored = static_cast<int>(std::min(count, static_cast<std::uint32_t>(settings_.capacity)));
+    count = static_cast<std::uint32_t>(num_stored < min_points ? 0 : num_stored / 2);
+    num_blocks += static_cast<std::size_t>(reservoir_blocks_for(num_stored));
+    num_kept_blocks += static_cast<std::size_t>(reservoir_blocks_for(static_cast<int>(count)));
+  }
+  if (kLeastShare * (num_blocks - num_kept_blocks) < num_blocks || num_blocks == num_kept_blocks) return false;
+
+  std::vector<ReservoirBlock> blocks = blocks_.used_pool_to_host();
+  std::vector<std::int32_t> table = blocks_.blocks_to_host();
+  std::vector<ReservoirBlock> kept_blocks(num_kept_blocks);
+  std::vector<std::int32_t> kept_table(table.size());
+  const int max_blocks = reservoir_blocks_for(settings_.capacity);
+  LeafReservoirsView from;
+  from.blocks = {blocks.data(), table.data(), max_blocks};
+  LeafReservoirsView to;
+  to.blocks = {kept_blocks.data(), kept_table.data(), max_blocks};
+  std::uint32_t next_block = 0;
+  for (std::uint32_t leaf = 0; leaf < static_cast<std::uint32_t>(num_leaves_); ++leaf) {
+    for (int k = 0; k < static_cast<int>(num_kept[leaf]); ++k) {
+      if (k % kReservoirBlockSize == 0) to.blocks.own(leaf, k / kReservoirBlockSize, next_block++);
+      to.set_point(leaf, k, from.point(leaf, 2 * k));
+    }
+  }
+  blocks_.clear();
+  blocks_.restore(Span<const ReservoirBlock>(kept_blocks), Span<const std::int32_t>(kept_table));
+  num_seen_.assign(Span<const std::uint32_t>(num_kept));
+  return true;
+}
+
 void LeafReservoirs::save(CheckedWriter& writer) const {
   writer.write_array(num_seen_.to_host());
   writer.write_array(num_changed_.to_host());

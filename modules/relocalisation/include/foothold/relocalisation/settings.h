@@ -137,7 +137,7 @@ struct ForestRelocaliserSettings {
     v(&S::sure_confidence, "sure_confidence", "Confidence from which no further roll is tried.", Range{0, 1});
     v(&S::place_radius_m, "place_radius_m", "Distance from a place's first camera up to which cameras belong to it.", Range{0.5, 16});
     v(&S::memory_budget_mb, "memory_budget_mb",
-      "Memory for what is learnt [10^6 bytes]: fewer examples are learnt from half of it on, none once it is used; 0 for no limit.",
+      "Memory for what is learnt [10^6 bytes]: when it is used up, detail makes room for new places; 0 for no limit.",
       Range{0, 1e6});
     v(&S::seed, "seed", "Seed of every random choice.", Range{0, 1.8446744073709552e19});
   }
