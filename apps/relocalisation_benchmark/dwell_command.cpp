@@ -68,8 +68,8 @@ int run_dwell(const DwellOptions& options) {
   } catch (const Interrupted&) {
     return apps::kInterrupted;
   }
-  std::printf("%s learnt again and again with fresh noise, then %s learnt and %s tested\n\n%s", stay.name.c_str(),
-              options.learn.c_str(), options.test.c_str(), growth_table(curves, "standing frames").c_str());
+  std::printf("%s learnt again and again with fresh noise, then %s learnt and %s tested\n\n%s", stay.name.c_str(), options.learn.c_str(),
+              options.test.c_str(), growth_table(curves, "standing frames").c_str());
   std::vector<std::pair<std::string, std::string>> described = describe_options(options.common);
   for (const auto& [name, value] : {std::pair("stay", &options.stay), std::pair("learn", &options.learn), std::pair("test", &options.test)})
     described.emplace_back(name, *value);

@@ -203,9 +203,10 @@ void add_room_options(apps::CommandLine& command, ScaleOptions& options) {
       .range(1, 100000)
       .show_default();
   command
-      .add_option("--laps", options.laps,
-                  "How often to learn the N places of --rooms N, one after another and again, from the second time on with fresh noise; one "
-                  "run for each number")
+      .add_option(
+          "--laps", options.laps,
+          "How often to learn the N places of --rooms N, one after another and again, from the second time on with fresh noise; one "
+          "run for each number")
       .comma_separated()
       .range(1, 100000);
   command.add_option("--first-room", options.first_room, "Rooms are synthetic:training-K from this K on").range(0, 1000000).show_default();

@@ -26,9 +26,10 @@ std::vector<RgbdFrame> rolled_views(int roll_deg) {
 }
 
 /// Has learnt the office upright, and tries so many rolls.
-ForestRelocaliser trained(int num_rolls, const Context& context = test::context_of(1)) {
+ForestRelocaliser trained(int num_rolls, const Context& context = test::context_of(1), float max_relocalise_ms = 0.0F) {
   ForestRelocaliserSettings settings = test::small_settings();
   settings.num_rolls = num_rolls;
+  settings.max_relocalise_ms = max_relocalise_ms;
   ForestRelocaliser relocaliser(context, test::small_forest(), settings);
   std::istringstream scene(test::saved(test::trained()));
   relocaliser.load(scene);  // a scene is the same whatever rolls are tried in it
@@ -57,6 +58,17 @@ TEST_CASE("rolled views: found whatever the roll, if rolls are tried, and seldom
     INFO("rolled by " << roll_deg << " deg: " << upright_only << " found upright, " << with_rolls << " with rolls");
     CHECK(with_rolls >= 9);
     CHECK(upright_only <= (std::abs(roll_deg) >= 90 ? with_rolls / 2 : with_rolls - 2));
+  }
+}
+
+TEST_CASE("max_relocalise_ms: when time is up, the answer is the best so far: that of the upright camera") {
+  constexpr float kNextToNothing_ms = 1e-3F;
+  constexpr float kPlenty_ms = 1e6F;
+  const Context context = test::context_of(1);
+  for (const RgbdFrame& view : rolled_views(90)) {
+    const auto answer = [&](int num_rolls, float max_ms) { return trained(num_rolls, context, max_ms).relocalise(view.view()); };
+    REQUIRE(bit_equal(answer(8, kNextToNothing_ms), answer(1, 0.0F)));
+    REQUIRE(bit_equal(answer(8, kPlenty_ms), answer(8, 0.0F)));
   }
 }
 

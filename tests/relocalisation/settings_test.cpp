@@ -45,6 +45,7 @@ const Values kTuned = {
     {"num_rolls", "8"},
     {"sure_confidence", "0.97"},
     {"place_radius_m", "4"},
+    {"max_relocalise_ms", "0"},
     {"memory_budget_mb", "0"},
     {"seed", "42"},
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "foothold/base/trace.h"
 #include "pose/confidence.h"
 #include "pose/explain.h"
 
@@ -75,12 +76,15 @@ std::vector<PoseEstimate> combine(std::vector<Attempt> attempts, std::size_t num
 
 PlaceSearch::PlaceSearch(const Context& context, const ForestRelocaliserSettings& settings)
     : sure_confidence_(settings.sure_confidence),
+      max_ms_(static_cast<double>(settings.max_relocalise_ms)),
       num_candidates_(static_cast<std::size_t>(settings.pose.num_candidates)),
       votes_(context),
       estimator_(context, SearchPlan(settings.pose, settings.seed)) {}
 
 std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQuery& query, const DeviceForest& forest, ScenePlaces& places,
                                             Explanation* explanation) {
+  const Stopwatch watch;
+  const auto is_time_left = [&] { return max_ms_ <= 0.0 || watch.elapsed_ms() < max_ms_; };
   std::vector<LeafModesView> modes;
   for (std::size_t i = 0; i < places.size(); ++i) modes.push_back(places[i].modes.view());
   std::vector<Attempt> attempts;
@@ -103,15 +107,15 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   for (std::size_t i = 0; i < upright.size() && i < kMostPlaces; ++i) {
     const bool is_rival = i < kMostRivals && upright[i].share >= kRivalVotes * upright.front().share;
     const bool is_likely = upright[i].share >= kFewestVotes && confidence < sure_confidence_;
-    if (i == 0 || is_rival || is_likely) attempt(upright[i]);
+    if (i == 0 || ((is_rival || is_likely) && is_time_left())) attempt(upright[i]);
   }
 
   std::vector<ForestView> rolled;
   for (int roll = 1; roll < forest.num_rolls(); ++roll) rolled.push_back(forest.view(roll));
-  if (confidence < sure_confidence_) {
+  if (confidence < sure_confidence_ && is_time_left()) {
     const std::vector<PlaceVote> votes = votes_.count(context, query, modes, rolled, 1);
     for (std::size_t i = 0; i < votes.size() && i < kMostRolledViews; ++i) {
-      if (votes[i].share < kFewestRolledVotes || confidence >= sure_confidence_) break;
+      if (votes[i].share < kFewestRolledVotes || confidence >= sure_confidence_ || !is_time_left()) break;
       attempt(votes[i]);
     }
   }

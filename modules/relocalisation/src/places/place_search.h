@@ -21,6 +21,7 @@ class PlaceSearch {
  public:
   PlaceSearch(const Context& context, const ForestRelocaliserSettings& settings);
 
+  /// The likeliest place is always tried; whether time is left is asked before each other attempt.
   /// @param explanation  Output: what the answer was made from; nullptr for none.
   /// @return             Estimates, best first; empty if no place allows one.
   std::vector<PoseEstimate> find(const Context& context, const PoseQuery& query, const DeviceForest& forest, ScenePlaces& places,
@@ -28,6 +29,7 @@ class PlaceSearch {
 
  private:
   float sure_confidence_;
+  double max_ms_;  ///< 0 for no limit
   std::size_t num_candidates_;
   PlaceVotes votes_;
   PoseEstimator estimator_;

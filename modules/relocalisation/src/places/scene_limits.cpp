@@ -28,14 +28,16 @@ void SceneLimits::watch_thinning(const Context& context, std::size_t state_bytes
   if (gave_up_detail_) return;
   gave_up_detail_ = true;
   const std::string sparse = std::to_string(examples_per_view(Detail::kSparse));
-  context.log(LogLevel::kWarning, reached(state_bytes, frame_index) + "; from here on detail makes room for new places: every second point " +
+  context.log(LogLevel::kWarning, reached(state_bytes, frame_index) +
+                                      "; from here on detail makes room for new places: every second point " +
                                       "is forgotten where most are held, and at most " + sparse + " examples of a view are learnt");
 }
 
 Detail SceneLimits::detail(const Context& context, std::size_t state_bytes, std::int64_t frame_index) {
   if (!is_full(state_bytes)) return gave_up_detail_ ? Detail::kSparse : Detail::kFull;
   if (!told_none_) {
-    context.log(LogLevel::kWarning, reached(state_bytes, frame_index) + ", with no detail left to give up; from here on nothing is learnt: " +
+    context.log(LogLevel::kWarning, reached(state_bytes, frame_index) +
+                                        ", with no detail left to give up; from here on nothing is learnt: " +
                                         "the camera is found where it was before, and nowhere else");
   }
   told_none_ = true;

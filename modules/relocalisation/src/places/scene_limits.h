@@ -28,8 +28,8 @@ class SceneLimits {
 
   bool bounds_memory() const { return budget_mb_ > 0; }
 
-  /// Whether places must give up detail before more is learnt: 7/8 of the budget is used. The rest is for the modes of what was learnt last,
-  /// which follow some frames later. @param state_bytes  memory of all places.
+  /// Whether places must give up detail before more is learnt: 7/8 of the budget is used. The rest is for the modes of what was learnt
+  /// last, which follow some frames later. @param state_bytes  memory of all places.
   bool is_full(std::size_t state_bytes) const;
 
   /// To be told when places gave up detail. @param state_bytes  before they did.

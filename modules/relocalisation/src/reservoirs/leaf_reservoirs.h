@@ -65,8 +65,8 @@ class LeafReservoirs {
   /// Adds each example to the reservoirs of its leaves (step 2), in the order of the examples whatever the number of threads.
   void insert(const Context& context, const TrainingExamples& examples);
 
-  /// Forgets every second point of each leaf, and all points of leaves that have fewer than `min_points`. What is kept are the leaf's points
-  /// now, as if no others had been offered. Rare, and made on the host.
+  /// Forgets every second point of each leaf, and all points of leaves that have fewer than `min_points`. What is kept are the leaf's
+  /// points now, as if no others had been offered. Rare, and made on the host.
   /// @return False, and nothing is changed, if that would give back less than a fifth of the points' memory.
   bool thin(const Context& context, int min_points);
 

@@ -120,6 +120,7 @@ struct ForestRelocaliserSettings {
   int num_rolls = 8;                   ///< (P) 1, (T) 8, docs/experiments/rolled-cameras.md
   float sure_confidence = 0.97F;       ///< (T) docs/experiments/rolled-cameras.md
   float place_radius_m = 4.0F;         ///< (P) 16, as good as one place; (T) 4, docs/experiments/places.md
+  float max_relocalise_ms = 0.0F;      ///< answers that repeat do not depend on a clock: a host that must bound time says how
   int memory_budget_mb = 0;            ///< memory grows with what is seen, not with time: a host that must bound it says how
   std::uint64_t seed = 42;             ///< of every random choice
 
@@ -136,9 +137,11 @@ struct ForestRelocaliserSettings {
       "Rolls of the camera about its optical axis, evenly spaced, that a relocalisation tries at most, upright first.", Range{1, 36});
     v(&S::sure_confidence, "sure_confidence", "Confidence from which no further roll is tried.", Range{0, 1});
     v(&S::place_radius_m, "place_radius_m", "Distance from a place's first camera up to which cameras belong to it.", Range{0.5, 16});
-    v(&S::memory_budget_mb, "memory_budget_mb",
-      "Memory for what is learnt [10^6 bytes]: when it is used up, detail makes room for new places; 0 for no limit.",
+    v(&S::max_relocalise_ms, "max_relocalise_ms",
+      "Time after which a relocalisation tries no further place or roll [ms]; answers then depend on the machine. 0 for no limit.",
       Range{0, 1e6});
+    v(&S::memory_budget_mb, "memory_budget_mb",
+      "Memory for what is learnt [10^6 bytes]: when it is used up, detail makes room for new places; 0 for no limit.", Range{0, 1e6});
     v(&S::seed, "seed", "Seed of every random choice.", Range{0, 1.8446744073709552e19});
   }
 
