@@ -81,6 +81,26 @@ TEST_CASE("places: of two rooms that are alike none is believed, and both are pr
   CHECK(num_both >= 4);  // of 7; the other room is not always tried to the end
 }
 
+TEST_CASE("places: of more rooms that are alike than are tried none is believed") {
+  ForestRelocaliser relocaliser = test::untrained();
+  constexpr int kRooms = 8;
+  const auto other = make_synthetic_sequence(
+      parse_synthetic_spec("synthetic:office?frames=160&width=320&height=240&moved=0.2&removed=0.2&added=0.2"), test::context_of(1));
+  for (int room = 0; room < kRooms; ++room) {
+    for (int i = 0; i < other->num_frames(); i += 8) {
+      const RgbdFrame& known = office()[static_cast<std::size_t>(i / 4)];
+      const RgbdFrame frame = room == 0 ? known : other->load(i);
+      relocaliser.train(frame.view(), moved(*known.world_from_camera, static_cast<float>(room) * kRoomDistanceM));
+    }
+    for (int i = 0; i < 30; ++i) relocaliser.update();
+  }
+  for (int i = 4; i < other->num_frames(); i += 24) {
+    const auto estimates = relocaliser.relocalise(other->load(i).view());
+    REQUIRE(!estimates.empty());
+    CHECK(estimates[0].confidence < relocaliser.acceptance_threshold());
+  }
+}
+
 TEST_CASE("places: who stays learns nothing more and takes no more memory") {
   ForestRelocaliserSettings settings = test::small_settings();
   settings.reservoirs.examples_per_view = 32;  // reached within 300 frames

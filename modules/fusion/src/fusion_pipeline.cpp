@@ -222,8 +222,7 @@ std::vector<PoseEstimate> FusionPipeline::propose(const Frame& frame, bool is_lo
     result.relocaliser_asked = true;
     proposals = relocaliser_->relocalise(frame);
   }
-  const auto most = static_cast<std::size_t>(settings_.refiner.max_candidates);
-  const std::size_t room = most > carried.size() ? most - carried.size() : 1;
+  const std::size_t room = kMaxProposals > carried.size() ? kMaxProposals - carried.size() : 1;
   if (proposals.size() > room) proposals.resize(room);
   proposals.insert(proposals.end(), carried.begin(), carried.end());
   return proposals;

@@ -252,7 +252,7 @@ std::vector<RefinedPose> PoseRefiner::refine(const Frame& frame, const TsdfVolum
   coarse_icp_.set_frame(frame);
   fine_icp_.set_frame(frame);
   comparer_.set_frame(frame);
-  const std::size_t num_proposals = std::min(proposals.size(), static_cast<std::size_t>(settings_.max_candidates));
+  const std::size_t num_proposals = std::min(proposals.size(), kMaxProposals);
   std::vector<RefinedPose> finalists = refine_ranked(frame, volume, Span<const PoseEstimate>(proposals.data(), num_proposals));
   const int candidate = finalists.front().candidate;
   if (!is_good(finalists.front()) && may_have_slid(finalists.front(), proposals[static_cast<std::size_t>(candidate)].confidence)) {

@@ -17,7 +17,7 @@ constexpr float kFewestVotes = 0.04F;         ///< share below which a place is 
 constexpr float kFewestRolledVotes = 0.015F;  ///< the same for a rolled camera
 constexpr float kRivalVotes = 0.7F;           ///< of the highest share, from which a place may be mistaken for the other
 constexpr std::size_t kMostPlaces = 5;        ///< upright attempts
-constexpr std::size_t kMostRivals = 3;        ///< of these, attempts although the answer is sure
+constexpr std::size_t kMostUnlikely = 3;      ///< the same, where no place has many votes
 constexpr std::size_t kMostRolledViews = 2;   ///< attempts of rolled cameras
 constexpr float kSamePlaceM = 0.5F;           ///< poses nearer than this do not exclude each other
 
@@ -47,7 +47,8 @@ float odds_of(const Attempt& attempt) { return attempt.confidence() / std::max(1
 /// The best attempt's estimates, and the best of its rivals: what was found in other places, elsewhere. A confidence is the probability
 /// that an attempt is right were it the only one; of places that exclude each other at most one is: p_i = o_i / (1 + sum o_j), with the
 /// odds o = c / (1 - c).
-std::vector<PoseEstimate> combine(std::vector<Attempt> attempts, std::size_t num_candidates) {
+/// @param num_untried  Rivals that were not tried: each may explain the frame as well as the best.
+std::vector<PoseEstimate> combine(std::vector<Attempt> attempts, int num_untried, std::size_t num_candidates) {
   if (attempts.empty()) return {};
   std::stable_sort(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) { return a.confidence() > b.confidence(); });
   const Attempt& best = attempts.front();
@@ -58,8 +59,8 @@ std::vector<PoseEstimate> combine(std::vector<Attempt> attempts, std::size_t num
     const float distance_m = (attempt.estimates.front().world_from_camera.translation - best_pose.translation).norm();
     if (attempt.place != best.place && distance_m > kSamePlaceM) rivals.push_back(&attempt);
   }
-  if (rivals.empty()) return estimates;
-  float sum_of_odds = odds_of(best);
+  if (rivals.empty() && num_untried == 0) return estimates;
+  float sum_of_odds = static_cast<float>(1 + num_untried) * odds_of(best);
   for (const Attempt* rival : rivals) sum_of_odds += odds_of(*rival);
   const float scale = odds_of(best) / (1.0F + sum_of_odds) / std::max(best.confidence(), 1e-6F);
   for (PoseEstimate& estimate : estimates) estimate.confidence *= scale;
@@ -104,10 +105,17 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   estimator_.prepare(context, query);
   votes_.prepare(context, query);
   const std::vector<PlaceVote> upright = votes_.count(context, query, modes, {forest.view()}, 0);
-  for (std::size_t i = 0; i < upright.size() && i < kMostPlaces; ++i) {
-    const bool is_rival = i < kMostRivals && upright[i].share >= kRivalVotes * upright.front().share;
+  const std::size_t most_places = !upright.empty() && upright.front().share >= kFewestVotes ? kMostPlaces : kMostUnlikely;
+  int num_untried = 0;
+  for (std::size_t i = 0; i < upright.size(); ++i) {
+    const bool is_rival = upright[i].share >= kRivalVotes * upright.front().share;
     const bool is_likely = upright[i].share >= kFewestVotes && confidence < sure_confidence_;
-    if (i == 0 || ((is_rival || is_likely) && is_time_left())) attempt(upright[i]);
+    const bool may_try = i < most_places && is_time_left();
+    if (i == 0 || (may_try && (is_rival || is_likely))) {
+      attempt(upright[i]);
+    } else if (is_rival) {
+      ++num_untried;
+    }
   }
 
   std::vector<ForestView> rolled;
@@ -119,7 +127,7 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
       attempt(votes[i]);
     }
   }
-  return combine(std::move(attempts), num_candidates_);
+  return combine(std::move(attempts), num_untried, num_candidates_);
 }
 
 }  // namespace foothold

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -17,9 +18,7 @@ namespace foothold {
 
 /// How many proposals are refined, in images of which size, and what is believed of them.
 struct PoseRefinerSettings {
-  /// Proposals that are looked at, best first.
-  int max_candidates = 16;
-  /// Of those, how many are refined to the end.
+  /// Of the proposals, how many are refined to the end.
   int num_finalists = 3;
   /// First, candidates are aligned and ranked in images reduced by this divisor; finalists then in images twice as large.
   int coarse_divisor = 8;
@@ -33,7 +32,6 @@ struct PoseRefinerSettings {
   /// Shows each field to the visitor, with its name, what it means and its range.
   template <class Visitor>
   static void fields(Visitor& v) {
-    v(&PoseRefinerSettings::max_candidates, "max_candidates", "Proposals that are looked at (R).", Range{1, 1000});
     v(&PoseRefinerSettings::num_finalists, "num_finalists", "Proposals that are refined to the end, at most (T: replay_sequence, kitchen).",
       Range{1, 1000});
     v(&PoseRefinerSettings::coarse_divisor, "coarse_divisor",
@@ -62,6 +60,9 @@ struct RefinedPose {
   /// Of TrackingResult: the direction in which alignment may have gone astray.
   Eigen::Vector3f loosest_world = Eigen::Vector3f::Zero();
 };
+
+/// Proposals that are looked at, the first ones (R).
+inline constexpr std::size_t kMaxProposals = 16;
 
 /// Poses this near to one another are one: the error at which the papers of the field call a relocalisation right.
 inline constexpr float kSamePoseM = 0.05F;
@@ -98,7 +99,7 @@ std::array<const char*, kNumAcceptanceFeatures> acceptance_feature_names();
 /// direction in which its surfaces hold it least, and the same is done with what comes of that.
 ///
 /// Cost: all candidates go through each step together, as do the finalists, so that the host waits for the device twice; a third time if
-/// hopeless ones are refined, too, and as often again for what slides. Memory for max_candidates coarse and num_finalists fine renderings.
+/// hopeless ones are refined, too, and as often again for what slides. Memory for kMaxProposals coarse and num_finalists fine renderings.
 class PoseRefiner {
  public:
   /// @param range  As of the volume that poses are refined on. @throws InvalidSettings
