@@ -312,8 +312,8 @@ void LiveRun::print_summary(const OpenNIStatus& status) const {
               static_cast<long long>(status.num_pairs), static_cast<long long>(status.num_skipped),
               static_cast<long long>(status.num_unmatched), static_cast<long long>(status.num_reopened));
   if (reconstruction_ != nullptr) {
-    std::printf("reconstruction: %lld frames, %zu with a pose, lost %zu times, %d blocks\n", static_cast<long long>(log_.num_frames()),
-                log_.trajectory().size(), log_.losses().size(), reconstruction_->pipeline().volume().num_blocks());
+    std::printf("reconstruction: %lld frames, %lld with a pose, lost %zu times, %d blocks\n", static_cast<long long>(log_.num_frames()),
+                static_cast<long long>(log_.num_with_pose()), log_.losses().size(), reconstruction_->pipeline().volume().num_blocks());
   }
   if (recording_ == nullptr) return;
   const RecordingThread::Progress progress = recording_->progress();

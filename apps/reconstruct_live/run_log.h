@@ -34,6 +34,8 @@ class RunLog {
 
   /// Frames processed so far.
   std::int64_t num_frames() const { return num_frames_; }
+  /// Of these, with a pose, in whatever world.
+  std::int64_t num_with_pose() const { return num_with_pose_; }
   const std::vector<Loss>& losses() const { return losses_; }
   const std::vector<StampedPose>& trajectory() const { return trajectory_; }
 

@@ -118,7 +118,7 @@ TEST_CASE("load_scene: what is no scene, or of another version, is told apart") 
   CHECK_THAT(refusal("FHFOREST and more of it"), Contains("a.scene: not a scene of Foothold"));
   std::string other_version = scene_bytes({});
   other_version[8] = 9;
-  CHECK_THAT(refusal(other_version), Contains("a scene of version 9, expected version 2"));
+  CHECK_THAT(refusal(other_version), Contains("a scene of version 9, expected version 3"));
 }
 
 TEST_CASE("load_scene: other parts than those expected are refused by name") {
