@@ -27,7 +27,7 @@ SceneLimits limits_of(int budget_mb, int examples_per_view) {
   return SceneLimits(settings);
 }
 
-TEST_CASE("SceneLimits: all is learnt until detail must go, then little, and nothing where no detail is left; each is said once") {
+TEST_CASE("SceneLimits: all is learnt until detail must go, then little, and nothing where no detail is left, and each is said once") {
   LoggedWarnings log;
   const Context context = log.context();
   SceneLimits limits = limits_of(80, 255);
