@@ -71,6 +71,14 @@ TEST_CASE("read_rgb_image: reads a PGM with comments, and refuses one whose size
   }
 }
 
+TEST_CASE("read_rgb_image: refuses a PGM without a blank behind its magic, which OpenCV would read as DICOM") {
+  const TempFolder temp;
+  std::string bytes = "P5#\n1 1 255\n" + std::string(256, 'a');
+  bytes.replace(128, 4, "DICM");
+  write_text(temp / "bad.pgm", bytes);
+  CHECK_THAT(error_of([&] { read_rgb_image(temp / "bad.pgm"); }), Contains("a PGM or PPM image cut short or with a damaged header"));
+}
+
 TEST_CASE("colourise_depth: near is brighter than far, nothing is black") {
   Image<float> depth(4, 1);
   depth(0, 0) = 0.5F;

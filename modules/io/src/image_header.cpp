@@ -67,8 +67,10 @@ std::uint32_t next_number(std::string_view bytes, std::size_t& at) {
   return at < bytes.size() && is_blank(at) ? value : 0;
 }
 
+/// Without a blank behind the magic, OpenCV takes the bytes for another format's.
 std::optional<ImageHeader> parse_pnm(std::string_view bytes) {
   std::size_t at = 2;
+  if (std::isspace(static_cast<unsigned char>(bytes[at])) == 0) return std::nullopt;
   const std::uint32_t width = next_number(bytes, at);
   const std::uint32_t height = next_number(bytes, at);
   const std::uint32_t max_value = next_number(bytes, at);
