@@ -172,6 +172,7 @@ class CameraLoop:
             events, keys = self.script(num_cycles)
             command = [self.bin / "reconstruct_live", "--mode", f"{size}@{FPS}", "--headless", "--save-scene", scene]
             command += ["--save-mesh", self.out / "soak.ply", "--set", "camera.silence_timeout_ms=1000", *keys]
+            command += ["--set", "forest.reservoirs.examples_per_view=16"]  # all is learnt within minutes: what grows then is a leak
             command += ["--duration", f"{run_s:.0f}"] if run_s > 0 else ["--frames", str(num_cycles * self.cycle)]
             if scene.exists():
                 command += ["--load-scene", scene]
