@@ -66,7 +66,7 @@ TEST_CASE("MapFromAbove: surfaces that face up make a tilted camera's map level"
   map.add_stop(tilted, ViewState::kTracking, false, false);
   map.add_surfaces(rendering);
   map.add_stop({tilted.rotation, {0.0F, 5.0F, 0.0F}}, ViewState::kTracking, false, false);  // straight down in the world
-  const MapStop& below = map.contents().trajectory.back();
+  const MapStop below = map.contents().trajectory.back();
   CHECK(std::hypot(below.x_m, below.y_m) < kTolerance_m);
 }
 
