@@ -225,7 +225,7 @@ TEST_CASE("PoseRefiner: identical for any number of threads") {
   }
 }
 
-TEST_CASE("PoseRefinerSettings: defaults validate, and no divisor is refused") {
+TEST_CASE("PoseRefinerSettings: defaults validate, and a divisor of 0 is refused") {
   PoseRefinerSettings settings;
   REQUIRE_NOTHROW(settings.validate());
   settings.coarse_divisor = 0;
