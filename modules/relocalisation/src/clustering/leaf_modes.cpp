@@ -44,6 +44,7 @@ LeafModes::LeafModes(const Context& context, int num_leaves, const ClusteringSet
       modes_(context.memory(), num_leaves, settings.max_modes),
       num_modes_(context.memory(), static_cast<std::size_t>(num_leaves)),
       num_owned_blocks_(context.memory(), static_cast<std::size_t>(num_leaves)),
+      colours_(context.memory(), static_cast<std::size_t>(num_leaves)),
       keys_(context.memory(), static_cast<std::size_t>(settings.touched_first ? num_leaves : 0)),
       sort_buffer_(context.memory()),
       costs_(context.memory()),
@@ -69,10 +70,11 @@ void LeafModes::clear() {
   modes_.clear();
   num_modes_.clear_to_zero();
   num_owned_blocks_.clear_to_zero();
+  colours_.clear_to_zero();
 }
 
 std::size_t LeafModes::state_bytes(const Context& context) const {
-  return modes_.state_bytes(context) + num_modes_.num_bytes() + num_owned_blocks_.num_bytes();
+  return modes_.state_bytes(context) + num_modes_.num_bytes() + num_owned_blocks_.num_bytes() + colours_.num_bytes();
 }
 
 void LeafModes::update(const Context& context, LeafReservoirs& reservoirs) {
@@ -105,6 +107,7 @@ void LeafModes::load(CheckedReader& reader) {
   const auto num_used = static_cast<std::int64_t>(pool.size() / kModeBlockSize);
   std::vector<bool> taken(static_cast<std::size_t>(num_used), false);
   std::int64_t num_taken = 0;
+  std::vector<LeafColours> colours(num_modes.size(), 0);
   for (std::uint64_t leaf = 0; leaf < num_leaves; ++leaf) {
     if (num_modes[leaf] > static_cast<std::uint32_t>(settings_.max_modes) || num_owned[leaf] > static_cast<std::uint32_t>(max_blocks) ||
         num_modes[leaf] > num_owned[leaf] * kModeBlockSize) {
@@ -121,8 +124,9 @@ void LeafModes::load(CheckedReader& reader) {
     }
     for (std::uint32_t k = 0; k < num_modes[leaf]; ++k) {
       const auto block = static_cast<std::size_t>(blocks[leaf * static_cast<std::uint64_t>(max_blocks) + k / kModeBlockSize]);
-      if (!is_plausible(pool[block * kModeBlockSize + k % kModeBlockSize]))
-        reader.refuse("gives leaf " + std::to_string(leaf) + " a mode that no points have");
+      const Mode& mode = pool[block * kModeBlockSize + k % kModeBlockSize];
+      if (!is_plausible(mode)) reader.refuse("gives leaf " + std::to_string(leaf) + " a mode that no points have");
+      colours[leaf] = with_colour(colours[leaf], static_cast<int>(k), mode.rgb);
     }
   }
   if (num_taken * kModeBlockSize != static_cast<std::int64_t>(pool.size())) {
@@ -133,6 +137,7 @@ void LeafModes::load(CheckedReader& reader) {
   num_modes_.assign(Span<const std::uint32_t>(num_modes));
   num_owned_blocks_.assign(Span<const std::uint32_t>(num_owned));
   modes_.restore(Span<const Mode>(pool), Span<const std::int32_t>(blocks));
+  colours_.assign(Span<const LeafColours>(colours));
 }
 
 }  // namespace foothold

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 
+#include "clustering/leaf_colours.h"
 #include "foothold/base/array.h"
 #include "foothold/base/context.h"
 #include "foothold/relocalisation/settings.h"
@@ -33,6 +34,7 @@ struct LeafModesView {
   BlockListsView<Mode, kModeBlockSize> modes;
   std::uint32_t* num_modes = nullptr;         ///< per leaf
   std::uint32_t* num_owned_blocks = nullptr;  ///< per leaf
+  LeafColours* colours = nullptr;             ///< per leaf, of its modes
 };
 
 /// The modes of all leaves, and the choice of leaves to renew.
@@ -45,7 +47,7 @@ class LeafModes {
   /// True if the last update() found no leaf that had changed. Waits for the device.
   bool was_idle(const Context& context) const { return chosen_.read(context, 0) >= static_cast<std::uint32_t>(num_leaves_); }
 
-  LeafModesView view() { return {modes_.view(), num_modes_.data(), num_owned_blocks_.data()}; }
+  LeafModesView view() { return {modes_.view(), num_modes_.data(), num_owned_blocks_.data(), colours_.data()}; }
   std::size_t state_bytes(const Context& context) const;
   void clear();
 
@@ -59,6 +61,7 @@ class LeafModes {
   BlockLists<Mode, kModeBlockSize> modes_;
   Array<std::uint32_t> num_modes_;
   Array<std::uint32_t> num_owned_blocks_;
+  Array<LeafColours> colours_;  ///< not saved: the modes tell
   // Scratch of update().
   Array<std::uint64_t> keys_;
   Array<std::uint64_t> sort_buffer_;

@@ -3,6 +3,7 @@
 /// The bodies of leaf_modes.h, for both devices: which leaves to renew, and putting their new modes in place.
 #pragma once
 
+#include "clustering/leaf_colours.h"
 #include "clustering/leaf_modes.h"
 #include "clustering/quick_shift.h"
 
@@ -118,9 +119,14 @@ struct CommitModes {
       leaf_modes.modes.own(leaf, block, next_block++);
       for (int k = 0; k < kModeBlockSize; ++k) leaf_modes.modes.at(leaf, block * kModeBlockSize + k) = Mode{};  // saved even if unused
     }
-    for (int k = 0; k < num_modes; ++k)
-      leaf_modes.modes.at(leaf, k) = new_modes[slot * static_cast<std::size_t>(max_modes) + static_cast<std::size_t>(k)];
+    LeafColours colours = 0;
+    for (int k = 0; k < num_modes; ++k) {
+      const Mode& mode = new_modes[slot * static_cast<std::size_t>(max_modes) + static_cast<std::size_t>(k)];
+      leaf_modes.modes.at(leaf, k) = mode;
+      colours = with_colour(colours, k, mode.rgb);
+    }
     leaf_modes.num_modes[leaf] = num_new_modes[slot];
+    leaf_modes.colours[leaf] = colours;
   }
 };
 

@@ -16,15 +16,23 @@ extern template struct VotingAlgorithms<CudaExecutor>;
 namespace {
 constexpr std::uint32_t kMostVoters = 512;   ///< (T) docs/experiments/places.md
 constexpr std::uint32_t kFewestVoters = 96;  ///< (T)
-constexpr std::size_t kMostVotes = 32768;    ///< pairs of voter and view, beyond which fewer pixels vote
+constexpr std::size_t kMostVotes = 32768;   ///< pairs of voter and view, beyond which fewer pixels vote
 }  // namespace
 
 PlaceVotes::PlaceVotes(const Context& context)
-    : voters_(context.memory(), kMostVoters), leaves_(context.memory()), places_(context.memory()), shares_(context.memory()) {}
+    : voters_(context.memory(), kMostVoters),
+      leaves_(context.memory()),
+      voter_colours_(context.memory(), kMostVoters),
+      places_(context.memory()),
+      shares_(context.memory()) {}
 
 void PlaceVotes::prepare(const Context& context, const PoseQuery& query) {
-  const SamplePoolPixel body{query.frame.depth, 0.0F, 0.0F, kMostVoters, voters_.data()};
-  dispatch(context, [&](auto on) { VotingAlgorithms<typename decltype(on)::Executor>::sample(context, body, kMostVoters); });
+  const ChooseVoter body{{query.frame.depth, 0.0F, 0.0F, kMostVoters, voters_.data()},
+                         query.image.view(),
+                         query.image.downscale(),
+                         voters_.data(),
+                         voter_colours_.data()};
+  dispatch(context, [&](auto on) { VotingAlgorithms<typename decltype(on)::Executor>::choose(context, body, kMostVoters); });
 }
 
 std::vector<PlaceVote> PlaceVotes::count(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
@@ -42,9 +50,10 @@ std::vector<PlaceVote> PlaceVotes::count(const Context& context, const PoseQuery
   }
   places_.assign(context, Span<const LeafModesView>(places));
   shares_.resize(forests.size() * places.size());
-  const CountVotes body{query.image.view(), query.image.downscale(), num_trees,      static_cast<std::uint32_t>(forests.front().num_leaves),
-                        num_voters,         voters_.data(),          leaves_.data(), static_cast<std::uint32_t>(places.size()),
-                        places_.data(),     shares_.data()};
+  const CountVotes body{num_trees,      static_cast<std::uint32_t>(forests.front().num_leaves),
+                        num_voters,     voter_colours_.data(),
+                        leaves_.data(), static_cast<std::uint32_t>(places.size()),
+                        places_.data(), shares_.data()};
   dispatch(context, [&](auto on) { VotingAlgorithms<typename decltype(on)::Executor>::count(context, body, shares_.size()); });
   const std::vector<float> shares = shares_.to_host(context);
   std::vector<PlaceVote> votes(shares.size());

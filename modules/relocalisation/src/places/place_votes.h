@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
 /// Where first, then how: which places a frame may show, before any hypothesis is drawn. Pixels vote for the places in which their leaves
-/// have a mode of their colour. Not in the paper, which knows one place.
+/// have modes of about their colour. Not in the paper, which knows one place.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ namespace foothold {
 struct PlaceVote {
   std::size_t place = 0;
   int roll = 0;
-  float share = 0.0F;  ///< of the voters' leaves, those with a mode of the pixel's colour
+  float share = 0.0F;  ///< how close the voters' leaves come to their colours, of what is possible: see closeness()
 };
 
 /// Counts the votes of a frame.
@@ -41,6 +41,7 @@ class PlaceVotes {
  private:
   Array<SampledPixel> voters_;
   Array<std::uint32_t> leaves_;  ///< roll by roll, tree by tree
+  Array<Rgb8> voter_colours_;
   Array<LeafModesView> places_;
   Array<float> shares_;  ///< roll by roll
 };

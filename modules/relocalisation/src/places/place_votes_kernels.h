@@ -3,24 +3,37 @@
 /// The bodies of place_votes.h, for both devices.
 #pragma once
 
+#include "clustering/leaf_colours.h"
 #include "features/feature_image_kernels.h"
 #include "places/place_votes.h"
-#include "pose/hypothesis_kernels.h"
 #include "pose/pool_kernels.h"
 
 namespace foothold {
 
-/// Largest difference of a voter's colour to a mode's, in any channel [grey levels]. (T) docs/experiments/places.md
-inline constexpr int kMaxVoteColourDifference = 20;
-
-/// One team per place and roll counts the leaves that have a mode of their voter's colour.
-struct CountVotes {
+/// Chooses a voter, and looks up its colour.
+struct ChooseVoter {
+  SamplePoolPixel sample;
   FeatureImageView image;
   int downscale;
+  const SampledPixel* voters;
+  Rgb8* voter_colours;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    sample(i);
+    const SampledPixel& at = voters[i];
+    const FeaturePixel& pixel =
+        image.pixels[clamp_index(at.v / downscale, image.height) * image.width + clamp_index(at.u / downscale, image.width)];
+    voter_colours[i] = {static_cast<std::uint8_t>(pixel.r()), static_cast<std::uint8_t>(pixel.g()), static_cast<std::uint8_t>(pixel.b())};
+  }
+};
+
+/// One team per place and roll adds up how close its leaves' colours are to their voters'. The colours of a place's leaves fit into a cache,
+/// and no access waits for another.
+struct CountVotes {
   int num_trees;
   std::uint32_t num_leaves;
   std::uint32_t num_voters;
-  const SampledPixel* voters;
+  const Rgb8* voter_colours;
   const std::uint32_t* leaves;
   std::uint32_t num_places;
   const LeafModesView* places;
@@ -29,40 +42,30 @@ struct CountVotes {
   template <class Team>
   FOOTHOLD_HD void operator()(const Team& team, std::size_t index) const {
     const auto item = static_cast<std::uint32_t>(index);
-    const LeafModesView& modes = places[item % num_places];
+    const LeafColours* const colours = places[item % num_places].colours;
     const std::uint32_t num_pairs = num_voters * static_cast<std::uint32_t>(num_trees);
     const std::uint32_t* const reached = leaves + std::size_t{item / num_places} * num_pairs;
-    float counts[2] = {};
+    std::uint32_t num_reached = 0;
+    std::uint32_t sum = 0;
     for (auto i = static_cast<std::uint32_t>(team.lane()); i < num_pairs; i += static_cast<std::uint32_t>(team.size())) {
       if (reached[i] >= num_leaves) continue;
-      counts[0] += 1.0F;
-      if (modes.num_modes[reached[i]] > 0 && has_mode_of_colour(modes, reached[i], voters[i % num_voters])) counts[1] += 1.0F;
+      ++num_reached;
+      sum += closeness(colours[reached[i]], voter_colours[i % num_voters]);
     }
-    team.sum_all(counts);
-    if (team.lane() == 0) shares[item] = counts[0] > 0.0F ? counts[1] / counts[0] : 0.0F;
-  }
-
- private:
-  FOOTHOLD_HD bool has_mode_of_colour(const LeafModesView& modes, std::uint32_t leaf, const SampledPixel& at) const {
-    const FeaturePixel& colour =
-        image.pixels[clamp_index(at.v / downscale, image.height) * image.width + clamp_index(at.u / downscale, image.width)];
-    const std::uint8_t rgb[3] = {static_cast<std::uint8_t>(colour.r()), static_cast<std::uint8_t>(colour.g()),
-                                 static_cast<std::uint8_t>(colour.b())};
-    for (std::uint32_t k = 0; k < modes.num_modes[leaf]; ++k) {
-      if (colour_difference(rgb, modes.modes.at(leaf, static_cast<int>(k)).rgb) < kMaxVoteColourDifference) return true;
-    }
-    return false;
+    float sums[2] = {static_cast<float>(num_reached), static_cast<float>(sum)};  // whole numbers below 2^24: exact in any order
+    team.sum_all(sums);
+    if (team.lane() == 0) shares[item] = sums[0] > 0.0F ? sums[1] / (sums[0] * static_cast<float>(kMostCloseness)) : 0.0F;
   }
 };
 
 template <class Executor>
 struct VotingAlgorithms {
-  static void sample(const Context& context, const SamplePoolPixel& body, std::size_t num_voters);
+  static void choose(const Context& context, const ChooseVoter& body, std::size_t num_voters);
   static void count(const Context& context, const CountVotes& body, std::size_t num_items);
 };
 
 template <class Executor>
-void VotingAlgorithms<Executor>::sample(const Context& context, const SamplePoolPixel& body, std::size_t num_voters) {
+void VotingAlgorithms<Executor>::choose(const Context& context, const ChooseVoter& body, std::size_t num_voters) {
   Executor(context).for_each(num_voters, body);
 }
 
