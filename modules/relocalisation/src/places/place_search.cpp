@@ -13,13 +13,13 @@ namespace foothold {
 namespace {
 
 // (T) docs/experiments/places.md
-constexpr float kFewestVotes = 0.04F;         ///< share below which a place is hardly ever the right one
-constexpr float kFewestRolledVotes = 0.015F;  ///< the same for a rolled camera
-constexpr float kRivalVotes = 0.7F;           ///< of the highest share, from which a place may be mistaken for the other
-constexpr std::size_t kMostPlaces = 5;        ///< upright attempts
-constexpr std::size_t kMostUnlikely = 3;      ///< the same, where no place has many votes
-constexpr std::size_t kMostRolledViews = 2;   ///< attempts of rolled cameras
-constexpr float kSamePlaceM = 0.5F;           ///< poses nearer than this do not exclude each other
+constexpr float kFewestVotes = 0.02F;        ///< share below which a view is hardly ever of a place that was learnt
+constexpr float kLikelyVotes = 0.4F;         ///< of the highest share, from which a place may be the right one
+constexpr float kRivalVotes = 0.7F;          ///< the same, from which a place may be mistaken for the other
+constexpr std::size_t kMostPlaces = 5;       ///< upright attempts
+constexpr std::size_t kMostUnlikely = 3;     ///< the same, where no place has many votes
+constexpr std::size_t kMostRolledViews = 2;  ///< attempts of rolled cameras
+constexpr float kSamePlaceM = 0.5F;          ///< poses nearer than this do not exclude each other
 
 /// The estimates of one attempt, in the world's frame.
 std::vector<PoseEstimate> estimates_of(const std::vector<PoseCandidate>& candidates, const Place& place) {
@@ -105,11 +105,13 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   estimator_.prepare(context, query);
   votes_.prepare(context, query);
   const std::vector<PlaceVote> upright = votes_.count(context, query, modes, {forest.view()}, 0);
-  const std::size_t most_places = !upright.empty() && upright.front().share >= kFewestVotes ? kMostPlaces : kMostUnlikely;
+  const float most_votes = upright.empty() ? 0.0F : upright.front().share;
+  const bool is_familiar = most_votes >= kFewestVotes;
+  const std::size_t most_places = is_familiar ? kMostPlaces : kMostUnlikely;
   int num_untried = 0;
   for (std::size_t i = 0; i < upright.size(); ++i) {
-    const bool is_rival = upright[i].share >= kRivalVotes * upright.front().share;
-    const bool is_likely = upright[i].share >= kFewestVotes && confidence < sure_confidence_;
+    const bool is_rival = upright[i].share >= kRivalVotes * most_votes;
+    const bool is_likely = is_familiar && upright[i].share >= kLikelyVotes * most_votes && confidence < sure_confidence_;
     const bool may_try = i < most_places && is_time_left();
     if (i == 0 || (may_try && (is_rival || is_likely))) {
       attempt(upright[i]);
@@ -123,7 +125,7 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   if (confidence < sure_confidence_ && is_time_left()) {
     const std::vector<PlaceVote> votes = votes_.count(context, query, modes, rolled, 1);
     for (std::size_t i = 0; i < votes.size() && i < kMostRolledViews; ++i) {
-      if (votes[i].share < kFewestRolledVotes || confidence >= sure_confidence_ || !is_time_left()) break;
+      if (votes[i].share < std::max(kFewestVotes, most_votes) || confidence >= sure_confidence_ || !is_time_left()) break;
       attempt(votes[i]);
     }
   }
