@@ -97,9 +97,26 @@ struct PackFeaturePixels {
   }
 };
 
+/// Multiplies a pixel's colours.
+struct RelightPixel {
+  const FeaturePixel* from;
+  float gain;
+  FeaturePixel* to;
+
+  FOOTHOLD_HD void operator()(std::size_t i) const {
+    FeaturePixel pixel = from[i];
+    for (int k = 1; k < 4; ++k) {
+      const int relit = static_cast<int>(gain * static_cast<float>(pixel.channels[k]) + 0.5F);
+      pixel.channels[k] = static_cast<std::int16_t>(relit < 255 ? relit : 255);
+    }
+    to[i] = pixel;
+  }
+};
+
 template <class Executor>
 struct FeatureImageAlgorithms {
   static void pack(const Context& context, const Frame& frame, int downscale, const FeatureImageView& view, FeaturePixel* pixels);
+  static void relight(const Context& context, const RelightPixel& body, std::size_t num_pixels);
 };
 
 template <class Executor>
@@ -109,6 +126,11 @@ void FeatureImageAlgorithms<Executor>::pack(const Context& context, const Frame&
   const int groups_per_row = (view.width + kWidth - 1) / kWidth;
   Executor(context).for_each(static_cast<std::size_t>(groups_per_row) * static_cast<std::size_t>(view.height),
                              PackFeaturePixels<kWidth>{frame.depth, frame.colour, downscale, view.width, groups_per_row, pixels});
+}
+
+template <class Executor>
+void FeatureImageAlgorithms<Executor>::relight(const Context& context, const RelightPixel& body, std::size_t num_pixels) {
+  Executor(context).for_each(num_pixels, body);
 }
 
 }  // namespace foothold

@@ -19,6 +19,8 @@ constexpr float kRivalVotes = 0.7F;          ///< the same, from which a place m
 constexpr std::size_t kMostPlaces = 5;       ///< upright attempts
 constexpr std::size_t kMostUnlikely = 3;     ///< the same, where no place has many votes
 constexpr std::size_t kMostRolledViews = 2;  ///< attempts of rolled cameras
+constexpr float kOtherLights[] = {0.45F, 0.67F, 1.5F, 2.2F};  ///< gains in which unfamiliar views are asked
+constexpr float kBetterLight = 2.0F;                          ///< more votes in it by this factor
 constexpr float kSamePlaceM = 0.5F;          ///< poses nearer than this do not exclude each other
 
 /// The estimates of one attempt, in the world's frame.
@@ -73,6 +75,8 @@ std::vector<PoseEstimate> combine(std::vector<Attempt> attempts, int num_untried
   return estimates;
 }
 
+float most_votes(const std::vector<PlaceVote>& votes) { return votes.empty() ? 0.0F : votes.front().share; }
+
 }  // namespace
 
 PlaceSearch::PlaceSearch(const Context& context, const ForestRelocaliserSettings& settings)
@@ -80,14 +84,43 @@ PlaceSearch::PlaceSearch(const Context& context, const ForestRelocaliserSettings
       max_ms_(static_cast<double>(settings.max_relocalise_ms)),
       num_candidates_(static_cast<std::size_t>(settings.pose.num_candidates)),
       votes_(context),
-      estimator_(context, SearchPlan(settings.pose, settings.seed)) {}
+      estimator_(context, SearchPlan(settings.pose, settings.seed)),
+      relit_(context),
+      best_lit_(context) {}
 
-std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQuery& query, const DeviceForest& forest, ScenePlaces& places,
-                                            Explanation* explanation) {
+void PlaceSearch::find_light(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
+                             const ForestView& forest, const FeatureImage*& image, std::vector<PlaceVote>& votes) {
+  float to_beat = std::max(kFewestVotes, kBetterLight * most_votes(votes));
+  for (const float gain : kOtherLights) {
+    relit_.relight(context, query.image, gain);
+    const PoseQuery relit{query.frame, relit_};
+    votes_.prepare(context, relit);
+    std::vector<PlaceVote> relit_votes = votes_.count(context, relit, places, {forest}, 0);
+    if (most_votes(relit_votes) < to_beat) continue;
+    to_beat = most_votes(relit_votes);
+    votes = std::move(relit_votes);
+    std::swap(relit_, best_lit_);
+    image = &best_lit_;
+  }
+}
+
+std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQuery& as_seen, const DeviceForest& forest,
+                                            ScenePlaces& places, Explanation* explanation) {
   const Stopwatch watch;
   const auto is_time_left = [&] { return max_ms_ <= 0.0 || watch.elapsed_ms() < max_ms_; };
   std::vector<LeafModesView> modes;
   for (std::size_t i = 0; i < places.size(); ++i) modes.push_back(places[i].modes.view());
+
+  const FeatureImage* image = &as_seen.image;
+  votes_.prepare(context, as_seen);
+  std::vector<PlaceVote> upright = votes_.count(context, as_seen, modes, {forest.view()}, 0);
+  if (most_votes(upright) < kFewestVotes && is_time_left()) {
+    find_light(context, as_seen, modes, forest.view(), image, upright);
+    votes_.prepare(context, {as_seen.frame, *image});
+  }
+  const PoseQuery query{as_seen.frame, *image};
+  estimator_.prepare(context, query);
+
   std::vector<Attempt> attempts;
   float confidence = 0.0F;
   const auto attempt = [&](const PlaceVote& vote) {
@@ -102,16 +135,13 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
     attempts.push_back({vote.place, std::move(estimates)});
   };
 
-  estimator_.prepare(context, query);
-  votes_.prepare(context, query);
-  const std::vector<PlaceVote> upright = votes_.count(context, query, modes, {forest.view()}, 0);
-  const float most_votes = upright.empty() ? 0.0F : upright.front().share;
-  const bool is_familiar = most_votes >= kFewestVotes;
+  const float most = most_votes(upright);
+  const bool is_familiar = most >= kFewestVotes;
   const std::size_t most_places = is_familiar ? kMostPlaces : kMostUnlikely;
   int num_untried = 0;
   for (std::size_t i = 0; i < upright.size(); ++i) {
-    const bool is_rival = upright[i].share >= kRivalVotes * most_votes;
-    const bool is_likely = is_familiar && upright[i].share >= kLikelyVotes * most_votes && confidence < sure_confidence_;
+    const bool is_rival = upright[i].share >= kRivalVotes * most;
+    const bool is_likely = is_familiar && upright[i].share >= kLikelyVotes * most && confidence < sure_confidence_;
     const bool may_try = i < most_places && is_time_left();
     if (i == 0 || (may_try && (is_rival || is_likely))) {
       attempt(upright[i]);
@@ -125,7 +155,7 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   if (confidence < sure_confidence_ && is_time_left()) {
     const std::vector<PlaceVote> votes = votes_.count(context, query, modes, rolled, 1);
     for (std::size_t i = 0; i < votes.size() && i < kMostRolledViews; ++i) {
-      if (votes[i].share < std::max(kFewestVotes, most_votes) || confidence >= sure_confidence_ || !is_time_left()) break;
+      if (votes[i].share < std::max(kFewestVotes, most) || confidence >= sure_confidence_ || !is_time_left()) break;
       attempt(votes[i]);
     }
   }

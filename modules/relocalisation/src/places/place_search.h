@@ -14,7 +14,8 @@
 
 namespace foothold {
 
-/// Estimates poses in the places that the frame's pixels vote for, the likeliest first, until one is sure; then for rolled cameras.
+/// Estimates poses in the places that the frame's pixels vote for, the likeliest first, until one is sure; then for rolled cameras. A view
+/// with hardly any votes is asked in other lights, too.
 ///
 /// Places that explain the frame about as well exclude each other: their confidences then sum to at most 1, so that neither is believed.
 class PlaceSearch {
@@ -28,11 +29,19 @@ class PlaceSearch {
                                  Explanation* explanation);
 
  private:
+  /// Votes for an unfamiliar view in other lights.
+  /// @param image  Input and output: the view, in the light in which it has more votes by far if there is one.
+  /// @param votes  Input and output: those for the image.
+  void find_light(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places, const ForestView& forest,
+                  const FeatureImage*& image, std::vector<PlaceVote>& votes);
+
   float sure_confidence_;
   double max_ms_;  ///< 0 for no limit
   std::size_t num_candidates_;
   PlaceVotes votes_;
   PoseEstimator estimator_;
+  FeatureImage relit_;
+  FeatureImage best_lit_;
 };
 
 }  // namespace foothold

@@ -55,6 +55,8 @@ class FeatureImage {
 
   /// Averages blocks of downscale x downscale pixels of a frame in the context's memory.
   void compute(const Context& context, const Frame& frame, int downscale);
+  /// The image of the same view in another light: colours times a gain, at most white. Not of itself.
+  void relight(const Context& context, const FeatureImage& image, float gain);
   /// What kernels see of it, while it lives and is not computed again.
   FeatureImageView view() const { return {pixels_.data(), width_, height_, offset_scale_px_mm_}; }
   /// Pixels of the frame per pixel of the image, along a side.
