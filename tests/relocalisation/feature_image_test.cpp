@@ -87,6 +87,29 @@ TEST_CASE("FeatureImage: blocks hold the mean of their valid depths and of their
   }
 }
 
+TEST_CASE("FeatureImage: in another light colours are multiplied, at most to white, and depth is as it was") {
+  Random random = test::test_random();
+  const NoiseFrame noise(random, 64, 48, 3);
+  const Context context;
+  FeatureImage image(context);
+  image.compute(context, noise.frame, 4);
+  for (const float gain : {0.45F, 1.0F, 2.2F}) {
+    FeatureImage relit(context);
+    relit.relight(context, image, gain);
+    const FeatureImageView from = image.view();
+    const FeatureImageView to = relit.view();
+    REQUIRE((to.width == from.width && to.height == from.height && to.offset_scale_px_mm == from.offset_scale_px_mm));
+    REQUIRE(relit.downscale() == image.downscale());
+    for (int i = 0; i < from.width * from.height; ++i) {
+      REQUIRE(to.pixels[i].depth_mm() == from.pixels[i].depth_mm());
+      for (int k = 1; k < 4; ++k) {
+        const double expected = std::min(255.0, static_cast<double>(gain) * from.pixels[i].channels[k]);
+        REQUIRE(std::abs(to.pixels[i].channels[k] - expected) <= 0.501);
+      }
+    }
+  }
+}
+
 /// The leaf that one pixel reaches in one tree, by the definition of features and splits.
 std::uint32_t expected_leaf(const FeatureImageView& image, double scale_px_mm, int downscale, const Forest& forest,
                             const SampledPixel& pixel, std::int32_t root) {

@@ -11,7 +11,7 @@
 
 namespace foothold {
 
-inline constexpr std::size_t kNumConfidenceFeatures = 8;
+inline constexpr std::size_t kNumConfidenceFeatures = 10;
 
 /// What the confidence in an aligned candidate is made from, and how much each counts.
 struct ConfidenceFeature {
@@ -27,7 +27,9 @@ inline constexpr std::array<ConfidenceFeature, kNumConfidenceFeatures> kConfiden
                                                                                             {"contradicted", -11.333F},
                                                                                             {"colour_correlation", 11.500F},
                                                                                             {"contradicted_tiles", 2.940F},
-                                                                                            {"explained_tiles", -1.498F}}};
+                                                                                            {"explained_tiles", -1.498F},
+                                                                                            {"shifted", 0.0F},
+                                                                                            {"rival", 0.0F}}};
 inline constexpr float kConfidenceIntercept = 0.158F;
 
 inline std::array<float, kNumConfidenceFeatures> confidence_features(const PoseCandidate& candidate) {
@@ -39,7 +41,9 @@ inline std::array<float, kNumConfidenceFeatures> confidence_features(const PoseC
           scene.contradicted_fraction,
           scene.colour_correlation,
           scene.contradicted_tiles,
-          scene.explained_tiles};
+          scene.explained_tiles,
+          scene.shifted_agreement,
+          scene.rival_agreement};
 }
 
 /// The probability that a candidate is within 10 cm and 10 deg of the truth, by logistic regression.

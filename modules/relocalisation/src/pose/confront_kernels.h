@@ -11,6 +11,8 @@
 
 namespace foothold {
 
+inline constexpr float kAgreementPrior = 20.0F;  ///< (T) a few points prove nothing
+
 /// Grey value of a colour, in [0, 255].
 template <class Colour>
 FOOTHOLD_HD inline float grey_level(const Colour& r, const Colour& g, const Colour& b) {
@@ -40,7 +42,7 @@ struct ConfrontPoints {
     }
     team.sum_all(sums);
     if (team.lane() != 0) return;
-    const float scale = 1.0F / (sums[kInView] + kPrior);
+    const float scale = 1.0F / (sums[kInView] + kAgreementPrior);
     agreement->agreeing_fraction = sums[kAgreeing] * scale;
     agreement->contradicted_fraction = sums[kContradicted] * scale;
     agreement->colour_correlation = correlation(sums);
@@ -49,7 +51,6 @@ struct ConfrontPoints {
 
  private:
   enum Sum { kInView, kContradicted, kAgreeing, kLive, kScene, kLive2, kScene2, kLiveScene, kNumSums };
-  static constexpr float kPrior = 20.0F;  ///< (T) a few points prove nothing
 
   FOOTHOLD_HD FOOTHOLD_INLINE void add_point(const Eigen::Vector3f& point_camera, const RememberedPoint& point,
                                              float (&sums)[kNumSums]) const {
@@ -87,7 +88,7 @@ struct ConfrontPoints {
     const float scene_variance = sums[kScene2] - sums[kScene] * sums[kScene] / n;
     const float covariance = sums[kLiveScene] - sums[kLive] * sums[kScene] / n;
     const float product = live_variance * scene_variance;
-    return product > 0.0F ? covariance / std::sqrt(product) * (n / (n + kPrior)) : 0.0F;
+    return product > 0.0F ? covariance / std::sqrt(product) * (n / (n + kAgreementPrior)) : 0.0F;
   }
 };
 
@@ -128,13 +129,74 @@ struct SumTiles {
   }
 };
 
-/// Leaves what the scene says about the hypothesis in the first slot. @pre The points were drawn.
+/// Projects points into the frame from where the best pose is not. A view of a plain wall explains such poses, too. One team per shift.
 template <class Executor>
-void confront(const Executor& executor, const PoseQuery& query, Hypotheses& hypotheses, Ranking& ranking) {
+struct ConfrontShifted {
+  FeatureImageView image;
+  Intrinsics intrinsics;  ///< of the averaged image
+  const RememberedPoint* points;
+  int num_points;
+  HypothesesView hypotheses;
+  float* shifted;
+
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t shift) const {
+    const SE3& pose = hypotheses.pose_at(0);
+    const Eigen::Matrix3f camera_from_scene = pose.rotation.transpose();
+    const float distance_m = shift % 2 == 0 ? kShiftM : -kShiftM;
+    const Eigen::Vector3f camera_scene = pose.translation + distance_m * pose.rotation.col(static_cast<int>(shift / 2));
+    float counts[3] = {};  // in view, agreeing, contradicted
+    for (int i = team.lane(); i < num_points; i += team.size()) {
+      const RememberedPoint& point = points[i];
+      if (point.valid == 0) continue;
+      const Eigen::Vector3f point_scene(point.point_scene[0], point.point_scene[1], point.point_scene[2]);
+      const PointState state = sight(image, intrinsics, camera_from_scene * (point_scene - camera_scene)).state;
+      counts[0] += state != PointState::kOutOfView ? 1.0F : 0.0F;
+      counts[1] += state == PointState::kAgrees ? 1.0F : 0.0F;
+      counts[2] += state == PointState::kContradicted ? 1.0F : 0.0F;
+    }
+    team.sum_all(counts);
+    if (team.lane() == 0) shifted[shift] = (counts[1] - counts[2]) / (counts[0] + kAgreementPrior);
+  }
+};
+
+/// Looks for the best of the shifted poses, and of the candidates that were found elsewhere. One team.
+template <class Executor>
+struct FindRivals {
+  HypothesesView hypotheses;
+  const SceneEvidence* evidence;  ///< per hypothesis
+  std::size_t num_candidates;
+  const float* shifted;
+  SceneAgreement* agreement;
+
+  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
+    constexpr float kElsewhereRad = 0.2F;
+    float rival = -1.0F;
+    for (auto slot = static_cast<std::size_t>(team.lane()) + 1; slot < num_candidates; slot += static_cast<std::size_t>(team.size())) {
+      if (hypotheses.has_failed(slot) || is_near(hypotheses.pose_at(slot), hypotheses.pose_at(0), kShiftM, kElsewhereRad)) continue;
+      const SceneEvidence& found = evidence[hypotheses.at(slot)];
+      const float score = found.alike_fraction() - found.contradicted_fraction();
+      rival = score > rival ? score : rival;
+    }
+    rival = team.highest(rival);
+    if (team.lane() != 0) return;
+    agreement->rival_agreement = rival;
+    agreement->shifted_agreement = shifted[0];
+    for (int i = 1; i < kNumShifts; ++i)
+      agreement->shifted_agreement = shifted[i] > agreement->shifted_agreement ? shifted[i] : agreement->shifted_agreement;
+  }
+};
+
+/// Leaves what the scene says about the hypothesis in the first slot. @pre The points were drawn, and the candidates ranked by them.
+template <class Executor>
+void confront(const Executor& executor, const PoseQuery& query, std::size_t num_candidates, Hypotheses& hypotheses, Ranking& ranking) {
   const FeatureImageView image = query.image.view();
+  executor.for_each_team(kNumShifts, ConfrontShifted<Executor>{image, query.averaged_intrinsics(), ranking.points.data(), kRankingPoints,
+                                                               hypotheses.view(), ranking.shifted.data()});
   executor.for_each_team(1, ConfrontPoints<Executor>{image, query.averaged_intrinsics(), ranking.points.data(), kRememberedPoints,
                                                      hypotheses.view(), ranking.tiles.data(), ranking.agreement.data()});
   executor.for_each_team(1, SumTiles<Executor>{image, ranking.tiles.data(), ranking.agreement.data()});
+  executor.for_each_team(1, FindRivals<Executor>{hypotheses.view(), ranking.evidence.data(), num_candidates, ranking.shifted.data(),
+                                                 ranking.agreement.data()});
 }
 
 }  // namespace foothold

@@ -76,7 +76,7 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
   for (int round = 0; round < kFinalRounds; ++round) refine(executor, pool, final_refinement, 1, hypotheses, buffers.assignments);
   if (plan.confronts_scene) {
     Aligner<Executor>(context, query, place.reservoirs, forest).run(buffers.pool, buffers.ranking, hypotheses, buffers.alignment);
-    confront(executor, query, hypotheses, buffers.ranking);
+    confront(executor, query, num_candidates, hypotheses, buffers.ranking);
   }
   const std::size_t num_evaluated = num_alive<Executor>(hypotheses.view(), num_candidates);
   // What failed is no candidate. On CUDA none is left out: this touches no device memory.

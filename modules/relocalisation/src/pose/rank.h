@@ -53,9 +53,15 @@ struct SceneAgreement {
   float colour_correlation;     ///< of the grey values of agreeing points and their pixels; whatever the light
   float contradicted_tiles;     ///< of the tiles where the scene is remembered, those most of whose points are seen through
   float explained_tiles;        ///< of the tiles with depth, those where points agree
+  float shifted_agreement;      ///< agreeing less contradicted fraction from where the camera is not, kShiftM away: the best of kNumShifts
+  float rival_agreement;        ///< alike less contradicted fraction of the best candidate elsewhere; -1 without one
   std::int32_t valid;           ///< 0 if there was nothing to confront the pose with
 };
-static_assert(sizeof(SceneAgreement) == 24, "copied from the device");
+static_assert(sizeof(SceneAgreement) == 32, "copied from the device");
+
+/// How far a pose is shifted along the camera's axes, to and fro, to see how distinct the view is (T).
+inline constexpr float kShiftM = 0.2F;
+inline constexpr int kNumShifts = 6;
 
 /// Owns all of it.
 struct Ranking {
@@ -63,15 +69,18 @@ struct Ranking {
       : points(memory, static_cast<std::size_t>(num_points)),
         evidence(memory, static_cast<std::size_t>(num_hypotheses)),
         tiles(memory, kNumTiles),
+        shifted(memory, kNumShifts),
         agreement(memory, 1) {
     evidence.clear_to_zero();
     tiles.clear_to_zero();
+    shifted.clear_to_zero();
     agreement.clear_to_zero();
   }
 
   Array<RememberedPoint> points;
   Array<SceneEvidence> evidence;  ///< per hypothesis; of no meaning for those that have failed
   Array<TileCounts> tiles;
+  Array<float> shifted;  ///< agreeing less contradicted fraction of each shift
   Array<SceneAgreement> agreement;            ///< of the best pose
   const std::uint32_t* drawn_from = nullptr;  ///< counts of the reservoirs that the points were drawn from; nullptr for a new query
 };
