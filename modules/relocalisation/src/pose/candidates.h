@@ -23,6 +23,6 @@ struct PoseCandidate {
   SceneAgreement agreement{};    ///< of the best; not valid for others, or if the plan does not confront the scene
   std::int32_t valid = 0;
 };
-static_assert(sizeof(PoseCandidate) == 100, "copied from the device");
+static_assert(sizeof(PoseCandidate) == 96, "copied from the device");
 
 }  // namespace foothold

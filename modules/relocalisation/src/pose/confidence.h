@@ -11,26 +11,25 @@
 
 namespace foothold {
 
-inline constexpr std::size_t kNumConfidenceFeatures = 10;
+inline constexpr std::size_t kNumConfidenceFeatures = 9;
 
 /// What the confidence in an aligned candidate is made from, and how much each counts.
 struct ConfidenceFeature {
   const char* name;
   float weight;
 };
-/// (T) Fitted by scripts/fit_confidence.py to rendered rooms alone, training-20 to training-29 (data/forest_confidence.csv):
+/// (T) Fitted by scripts/fit_confidence.py to rendered rooms alone, training-20 to training-35 (data/forest_confidence.csv):
 /// docs/experiments/trust.md.
-inline constexpr std::array<ConfidenceFeature, kNumConfidenceFeatures> kConfidenceFeatures{{{"log_inliers", 0.801F},
-                                                                                            {"log_fine_inliers", 1.998F},
-                                                                                            {"surface_fit", 3.774F},
-                                                                                            {"agreeing", 2.804F},
-                                                                                            {"contradicted", -11.333F},
-                                                                                            {"colour_correlation", 11.500F},
-                                                                                            {"contradicted_tiles", 2.940F},
-                                                                                            {"explained_tiles", -1.498F},
-                                                                                            {"shifted", 0.0F},
-                                                                                            {"rival", 0.0F}}};
-inline constexpr float kConfidenceIntercept = 0.158F;
+inline constexpr std::array<ConfidenceFeature, kNumConfidenceFeatures> kConfidenceFeatures{{{"log_inliers", 0.644F},
+                                                                                            {"log_fine_inliers", 1.536F},
+                                                                                            {"surface_fit", 5.709F},
+                                                                                            {"agreeing", 6.019F},
+                                                                                            {"contradicted", -5.956F},
+                                                                                            {"colour_correlation", 10.997F},
+                                                                                            {"contradicted_tiles", -4.942F},
+                                                                                            {"shifted", -2.871F},
+                                                                                            {"rival", -3.900F}}};
+inline constexpr float kConfidenceIntercept = -4.256F;
 
 inline std::array<float, kNumConfidenceFeatures> confidence_features(const PoseCandidate& candidate) {
   const SceneAgreement& scene = candidate.agreement;
@@ -41,7 +40,6 @@ inline std::array<float, kNumConfidenceFeatures> confidence_features(const PoseC
           scene.contradicted_fraction,
           scene.colour_correlation,
           scene.contradicted_tiles,
-          scene.explained_tiles,
           scene.shifted_agreement,
           scene.rival_agreement};
 }

@@ -95,37 +95,21 @@ struct ConfrontPoints {
 /// Sums up the tiles, and empties them for the next frame. One team.
 template <class Executor>
 struct SumTiles {
-  FeatureImageView image;
   TileCounts* tiles;
   SceneAgreement* agreement;
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
-    float sums[kNumSums] = {};
+    constexpr std::uint32_t kFewestPoints = 3;  // (T) of a tile that says anything
+    float sums[2] = {};                         // tiles that say something; those most of whose points are seen through
     for (int tile = team.lane(); tile < kNumTiles; tile += team.size()) {
       const TileCounts counts = tiles[tile];
       tiles[tile] = {};
-      const std::uint32_t num_judged = counts.num_agreeing + counts.num_contradicted;
-      sums[kExplained] += counts.num_agreeing > 0 ? 1.0F : 0.0F;
-      sums[kWithDepth] += counts.num_agreeing > 0 || has_depth(tile) ? 1.0F : 0.0F;
-      if (num_judged < kFewestPoints) continue;
-      sums[kJudged] += 1.0F;
-      sums[kContradicted] += counts.num_contradicted > 2 * counts.num_agreeing ? 1.0F : 0.0F;
+      if (counts.num_agreeing + counts.num_contradicted < kFewestPoints) continue;
+      sums[0] += 1.0F;
+      sums[1] += counts.num_contradicted > 2 * counts.num_agreeing ? 1.0F : 0.0F;
     }
     team.sum_all(sums);
-    if (team.lane() != 0) return;
-    agreement->contradicted_tiles = sums[kContradicted] / (sums[kJudged] > 0.0F ? sums[kJudged] : 1.0F);
-    agreement->explained_tiles = sums[kExplained] / (sums[kWithDepth] > 0.0F ? sums[kWithDepth] : 1.0F);
-  }
-
- private:
-  enum Sum { kExplained, kWithDepth, kJudged, kContradicted, kNumSums };
-  static constexpr std::uint32_t kFewestPoints = 3;  ///< (T) of a tile that says anything
-
-  /// Whether the pixel in a tile's middle has depth.
-  FOOTHOLD_HD bool has_depth(int tile) const {
-    const int u = (2 * (tile % kTileColumns) + 1) * image.width / (2 * kTileColumns);
-    const int v = (2 * (tile / kTileColumns) + 1) * image.height / (2 * kTileRows);
-    return image.pixels[v * image.width + u].depth_mm() > 0;
+    if (team.lane() == 0) agreement->contradicted_tiles = sums[1] / (sums[0] > 0.0F ? sums[0] : 1.0F);
   }
 };
 
@@ -194,7 +178,7 @@ void confront(const Executor& executor, const PoseQuery& query, std::size_t num_
                                                                hypotheses.view(), ranking.shifted.data()});
   executor.for_each_team(1, ConfrontPoints<Executor>{image, query.averaged_intrinsics(), ranking.points.data(), kRememberedPoints,
                                                      hypotheses.view(), ranking.tiles.data(), ranking.agreement.data()});
-  executor.for_each_team(1, SumTiles<Executor>{image, ranking.tiles.data(), ranking.agreement.data()});
+  executor.for_each_team(1, SumTiles<Executor>{ranking.tiles.data(), ranking.agreement.data()});
   executor.for_each_team(1, FindRivals<Executor>{hypotheses.view(), ranking.evidence.data(), num_candidates, ranking.shifted.data(),
                                                  ranking.agreement.data()});
 }

@@ -52,12 +52,11 @@ struct SceneAgreement {
   float contradicted_fraction;  ///< of the points in view, seen through
   float colour_correlation;     ///< of the grey values of agreeing points and their pixels; whatever the light
   float contradicted_tiles;     ///< of the tiles where the scene is remembered, those most of whose points are seen through
-  float explained_tiles;        ///< of the tiles with depth, those where points agree
   float shifted_agreement;      ///< agreeing less contradicted fraction from where the camera is not, kShiftM away: the best of kNumShifts
   float rival_agreement;        ///< alike less contradicted fraction of the best candidate elsewhere; -1 without one
   std::int32_t valid;           ///< 0 if there was nothing to confront the pose with
 };
-static_assert(sizeof(SceneAgreement) == 32, "copied from the device");
+static_assert(sizeof(SceneAgreement) == 28, "copied from the device");
 
 /// How far a pose is shifted along the camera's axes, to and fro, to see how distinct the view is (T).
 inline constexpr float kShiftM = 0.2F;
