@@ -156,7 +156,7 @@ struct FindRivals {
     constexpr float kElsewhereRad = 0.2F;
     float rival = -1.0F;
     for (auto slot = static_cast<std::size_t>(team.lane()) + 1; slot < num_candidates; slot += static_cast<std::size_t>(team.size())) {
-      if (hypotheses.has_failed(slot) || is_near(hypotheses.pose_at(slot), hypotheses.pose_at(0), kShiftM, kElsewhereRad)) continue;
+      if (hypotheses.has_failed(slot) || is_same_pose(hypotheses.pose_at(slot), hypotheses.pose_at(0), kShiftM, kElsewhereRad)) continue;
       const SceneEvidence& found = evidence[hypotheses.at(slot)];
       const float score = found.alike_fraction() - found.contradicted_fraction();
       rival = score > rival ? score : rival;

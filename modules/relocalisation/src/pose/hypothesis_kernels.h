@@ -123,7 +123,7 @@ struct MakeEnergyKey {
 };
 
 /// Whether poses are nearer to each other than both limits. |A - B|^2 = 8 sin^2(angle / 2), about 2 angle^2.
-FOOTHOLD_HD inline bool is_near(const SE3& a, const SE3& b, float distance_m, float angle_rad) {
+FOOTHOLD_HD inline bool is_same_pose(const SE3& a, const SE3& b, float distance_m, float angle_rad) {
   return (a.translation - b.translation).squaredNorm() < distance_m * distance_m &&
          (a.rotation - b.rotation).squaredNorm() < 2.0F * angle_rad * angle_rad;
 }
@@ -137,7 +137,7 @@ struct DropRepeats {
   FOOTHOLD_HD void operator()(std::size_t slot) const {
     const SE3& pose = hypotheses.pose_at(slot);
     for (std::size_t better = 0; better < slot; ++better) {
-      if (!is_near(hypotheses.pose_at(better), pose, distance_m, angle_rad)) continue;
+      if (!is_same_pose(hypotheses.pose_at(better), pose, distance_m, angle_rad)) continue;
       hypotheses.energies[hypotheses.at(slot)] = kFailedEnergy;
       return;
     }
