@@ -144,7 +144,6 @@ std::vector<std::pair<std::string, std::string>> describe(const TrustOptions& op
                                                  {"room_stride", amounts.views.stride}, {"own", amounts.num_own},
                                                  {"strangers", amounts.num_strangers},  {"spoilt", amounts.num_spoilt},
                                                  {"width", amounts.views.width},        {"height", amounts.views.height}};
-  described.emplace_back("drift_m", csv_number(static_cast<double>(amounts.drift_m)));
   for (const auto& [name, value] : numbers) described.emplace_back(name, std::to_string(value));
   return described;
 }
@@ -159,7 +158,7 @@ int run_trust(const TrustOptions& options) {
   check_pictures(options.pictures);
   std::vector<MethodTrust> results;
   try {
-    const std::vector<TrustSubject> subjects = load_subjects(options.amounts, recordings, options.scenes.common.device.num_threads, options.scenes.common.seed);
+    const std::vector<TrustSubject> subjects = load_subjects(options.amounts, recordings, options.scenes.common.device.num_threads);
     Inquiry inquiry(options, subjects);
     for (const Method& method : methods) results.push_back(inquiry.run(method, inputs));
   } catch (const Interrupted&) {
@@ -183,7 +182,7 @@ int run_trust(const TrustOptions& options) {
 int write_evidence(const TrustOptions& options) {
   const SceneOptions& scenes = options.scenes;
   const MethodInputs inputs = method_inputs(scenes.common, find_methods({"forest"}));
-  const std::vector<TrustSubject> subjects = load_subjects(options.amounts, open_scenes(scenes), scenes.common.device.num_threads, scenes.common.seed);
+  const std::vector<TrustSubject> subjects = load_subjects(options.amounts, open_scenes(scenes), scenes.common.device.num_threads);
   ForestRelocaliser relocaliser(apps::make_context(scenes.common.device), *inputs.forest, inputs.settings.forest);
   EvidenceTable table;
   apps::ProgressBar bar("maps", static_cast<int>(subjects.size()));
@@ -209,14 +208,12 @@ struct TypedAmounts {
   int num_strangers = -1;
   int num_spoilt = -1;
   int first_room = -1;
-  float drift_cm = 0.0F;
 };
 
 /// The full or quick amounts, but for those typed.
 TrustAmounts amounts_of(const TypedAmounts& typed, bool quick) {
   TrustAmounts amounts = quick ? quick_amounts() : TrustAmounts{};
   amounts.first_room = typed.first_room;
-  amounts.drift_m = 0.01F * typed.drift_cm;
   const std::pair<int, int*> numbers[] = {{typed.num_rooms, &amounts.num_rooms},
                                           {typed.num_frames, &amounts.views.num_training},
                                           {typed.num_own, &amounts.num_own},
@@ -255,11 +252,6 @@ Command add_trust_command(apps::CommandLine& app) {
              {full.num_strangers, quick.num_strangers}, 0);
   add_amount(command, "--spoilt", typed->num_spoilt, "Views of each kind that is spoilt, or changed, to ask each map about",
              {full.num_spoilt, quick.num_spoilt}, 1);
-  command
-      .add_option("--drift", typed->drift_cm,
-                  "Learn along paths that drift by so much, as a tracker's do: a standard deviation half-way, 0 at both ends")
-      .type_name("CM")
-      .range(0, 10);
   command.add_option("--pictures", options->pictures, "Draw the first wrong answers that are believed to PREFIX.N.png").type_name("PREFIX");
   command
       .add_option("--evidence", options->evidence,

@@ -3,11 +3,7 @@
 #include "trust_subjects.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
-
-#include "foothold/base/random.h"
-#include "foothold/base/se3.h"
 
 namespace foothold::benchmark {
 namespace {
@@ -98,29 +94,6 @@ std::vector<std::string> room_names(const TrustAmounts& amounts) {
   return names;
 }
 
-/// The frames with poses that drift as a tracker's do: a random walk, less what would be left of it at the end. Half a degree goes with a
-/// centimetre.
-FrameList drifted(const FrameList& frames, float drift_m, std::uint64_t seed) {
-  constexpr float kRadPerM = 0.87F;
-  const auto num = static_cast<float>(frames.size());
-  const float step_m = 2.0F * drift_m / std::sqrt(num) * std::sqrt(3.0F);  // uniform in [-step, step]
-  Random random(seed, 0);
-  std::vector<Tangent6> walk(frames.size(), Tangent6::Zero());
-  for (std::size_t i = 1; i < walk.size(); ++i) {
-    walk[i] = walk[i - 1];
-    for (int k = 0; k < 6; ++k) walk[i][k] += random.uniform(-step_m, step_m) * (k < 3 ? kRadPerM : 1.0F);
-  }
-  FrameList result;
-  for (std::size_t i = 0; i < frames.size(); ++i) {
-    const Tangent6 drift = walk[i] - static_cast<float>(i) / num * walk.back();
-    auto frame = std::make_shared<RgbdFrame>(*frames[i]);
-    const SE3& pose = *frame->world_from_camera;
-    frame->world_from_camera = SE3{se3_exp(drift).rotation * pose.rotation, pose.translation + drift.tail<3>()};
-    result.push_back(std::move(frame));
-  }
-  return result;
-}
-
 }  // namespace
 
 FrameList some_frames(const FrameList& frames, int count) {
@@ -130,7 +103,7 @@ FrameList some_frames(const FrameList& frames, int count) {
   return some;
 }
 
-std::vector<TrustSubject> load_subjects(const TrustAmounts& amounts, const std::vector<Scene>& recordings, int num_threads, std::uint64_t seed) {
+std::vector<TrustSubject> load_subjects(const TrustAmounts& amounts, const std::vector<Scene>& recordings, int num_threads) {
   const std::vector<std::string> rooms = room_names(amounts);
   std::vector<TrustSubject> subjects(rooms.size() + recordings.size() + (rooms.empty() ? 0 : 1));
   std::vector<ReadJob> jobs;
@@ -148,9 +121,7 @@ std::vector<TrustSubject> load_subjects(const TrustAmounts& amounts, const std::
     subjects.back().training.insert(subjects.back().training.end(), training.begin(), training.end());
     subjects.back().own.insert(subjects.back().own.end(), tests.begin(), tests.end());
   }
-  for (std::size_t i = 0; i < subjects.size(); ++i) {
-    TrustSubject& subject = subjects[i];
-    if (amounts.drift_m > 0.0F) subject.training = drifted(subject.training, amounts.drift_m, derive_seed(seed, i));
+  for (TrustSubject& subject : subjects) {
     if (!subject.is_many_places) subject.own = some_frames(subject.own, amounts.num_own);
   }
   return subjects;

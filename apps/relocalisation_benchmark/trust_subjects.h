@@ -29,15 +29,13 @@ struct TrustAmounts {
   int num_own = 60;         ///< views of each scene that are not learnt
   int num_strangers = 400;  ///< views of other scenes asked of each map
   int num_spoilt = 16;      ///< views of each kind that is spoilt or changed
-  float drift_m = 0.0F;     ///< of the path that is learnt: a standard deviation, half-way
   int first_room = -1;      ///< if not negative, training rooms from this one on instead
   RoomViews views;
 };
 
 /// Renders the rooms, and reads the recordings, of which at most `amounts.num_own` evenly chosen views are tested.
-/// @param seed  of the drift.
 /// @throws Interrupted, FileError
-std::vector<TrustSubject> load_subjects(const TrustAmounts& amounts, const std::vector<Scene>& recordings, int num_threads, std::uint64_t seed);
+std::vector<TrustSubject> load_subjects(const TrustAmounts& amounts, const std::vector<Scene>& recordings, int num_threads);
 
 /// At most `count` frames, evenly chosen.
 FrameList some_frames(const FrameList& frames, int count);

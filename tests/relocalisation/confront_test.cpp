@@ -37,8 +37,8 @@ std::vector<RememberedPoint> remembered(const std::vector<FeaturePixel>& pixels)
     for (int u = -kWidth; u < 2 * kWidth; u += 2) {
       const bool is_inside = u >= 0 && v >= 0 && u < kWidth && v < kHeight;
       const float z_m = is_inside ? static_cast<float>(pixels[static_cast<std::size_t>(v * kWidth + u)].depth_mm()) * 1e-3F : kWallM;
-      const Eigen::Vector3f p = z_m * Eigen::Vector3f((static_cast<float>(u) - kCamera.cx) / kCamera.fx,
-                                                      (static_cast<float>(v) - kCamera.cy) / kCamera.fy, 1.0F);
+      const Eigen::Vector3f p =
+          z_m * Eigen::Vector3f((static_cast<float>(u) - kCamera.cx) / kCamera.fx, (static_cast<float>(v) - kCamera.cy) / kCamera.fy, 1.0F);
       points.push_back({{p.x(), p.y(), p.z()}, {100, 100, 100}, 1});
     }
   }
@@ -53,12 +53,9 @@ std::vector<float> shifted_agreements(bool with_box) {
   float energy = 0.0F;
   std::uint64_t order = 0;
   std::vector<float> shifted(kNumShifts, -2.0F);
-  const ConfrontShifted<CpuExecutor> body{{pixels.data(), kWidth, kHeight, 1.0F},
-                                          kCamera,
-                                          points.data(),
-                                          static_cast<int>(points.size()),
-                                          {&scene_from_camera, &energy, &order},
-                                          shifted.data()};
+  const ConfrontShifted<CpuExecutor> body{
+      {pixels.data(), kWidth, kHeight, 1.0F}, kCamera,       points.data(), static_cast<int>(points.size()),
+      {&scene_from_camera, &energy, &order},  shifted.data()};
   for (std::size_t shift = 0; shift < shifted.size(); ++shift) body(CpuTeam{}, shift);
   return shifted;
 }
@@ -95,7 +92,8 @@ SceneAgreement rivals_of(const std::vector<Candidate>& candidates, std::vector<f
     evidence.push_back(candidates[i].evidence);
   }
   SceneAgreement agreement{};
-  FindRivals<CpuExecutor>{{poses.data(), energies.data(), order.data()}, evidence.data(), candidates.size(), shifted.data(), &agreement}(CpuTeam{}, 0);
+  FindRivals<CpuExecutor>{{poses.data(), energies.data(), order.data()}, evidence.data(), candidates.size(), shifted.data(), &agreement}(
+      CpuTeam{}, 0);
   return agreement;
 }
 
@@ -103,7 +101,8 @@ TEST_CASE("FindRivals: the best candidate elsewhere counts, and neither one near
   const SceneEvidence all_agrees{1000.0F, 0.0F, 1000.0F};
   const SceneEvidence half_agrees{1000.0F, 100.0F, 500.0F};
   const std::vector<float> shifted = {0.1F, 0.7F, -0.5F, 0.2F, 0.0F, 0.3F};
-  const SceneAgreement found = rivals_of({{0.0F, all_agrees, 1.0F}, {0.1F, all_agrees, 1.0F}, {3.0F, all_agrees, kFailedEnergy}, {1.0F, half_agrees, 1.0F}}, shifted);
+  const SceneAgreement found = rivals_of(
+      {{0.0F, all_agrees, 1.0F}, {0.1F, all_agrees, 1.0F}, {3.0F, all_agrees, kFailedEnergy}, {1.0F, half_agrees, 1.0F}}, shifted);
   REQUIRE(found.rival_agreement == Approx(half_agrees.alike_fraction() - half_agrees.contradicted_fraction()));
   REQUIRE(found.shifted_agreement == 0.7F);
   REQUIRE(rivals_of({{0.0F, all_agrees, 1.0F}, {0.1F, all_agrees, 1.0F}}, shifted).rival_agreement == -1.0F);

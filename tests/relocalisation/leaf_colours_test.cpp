@@ -30,7 +30,8 @@ LeafColours word_of(const std::vector<Rgb8>& colours) {
 
 int difference(const Rgb8& a, const Rgb8& b) { return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)}); }
 
-TEST_CASE("LeafColours: closeness falls with the difference to the nearest of the first four colours, and is never off by more than storage is") {
+TEST_CASE(
+    "LeafColours: closeness falls with the difference to the nearest of the first four colours, and is never off by more than storage is") {
   constexpr int kStorage = 4;  // half of the eight grey levels that are stored as one
   Random random = test::test_random();
   for (int i = 0; i < 5000; ++i) {

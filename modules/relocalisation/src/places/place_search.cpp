@@ -13,15 +13,15 @@ namespace foothold {
 namespace {
 
 // (T) docs/experiments/places.md
-constexpr float kFewestVotes = 0.02F;        ///< share below which a view is hardly ever of a place that was learnt
-constexpr float kLikelyVotes = 0.4F;         ///< of the highest share, from which a place may be the right one
-constexpr float kRivalVotes = 0.6F;          ///< the same, from which a place may be mistaken for the other
-constexpr std::size_t kMostPlaces = 5;       ///< upright attempts
-constexpr std::size_t kMostUnlikely = 3;     ///< the same, where no place has many votes
-constexpr std::size_t kMostRolledViews = 2;  ///< attempts of rolled cameras
+constexpr float kFewestVotes = 0.02F;                         ///< share below which a view is hardly ever of a place that was learnt
+constexpr float kLikelyVotes = 0.4F;                          ///< of the highest share, from which a place may be the right one
+constexpr float kRivalVotes = 0.6F;                           ///< the same, from which a place may be mistaken for the other
+constexpr std::size_t kMostPlaces = 5;                        ///< upright attempts
+constexpr std::size_t kMostUnlikely = 3;                      ///< the same, where no place has many votes
+constexpr std::size_t kMostRolledViews = 2;                   ///< attempts of rolled cameras
 constexpr float kOtherLights[] = {0.45F, 0.67F, 1.5F, 2.2F};  ///< gains in which unfamiliar views are asked
 constexpr float kBetterLight = 2.0F;                          ///< more votes in it by this factor
-constexpr float kSamePlaceM = 0.5F;          ///< poses nearer than this do not exclude each other
+constexpr float kSamePlaceM = 0.5F;                           ///< poses nearer than this do not exclude each other
 
 /// The estimates of one attempt, in the world's frame.
 std::vector<PoseEstimate> estimates_of(const std::vector<PoseCandidate>& candidates, const Place& place) {

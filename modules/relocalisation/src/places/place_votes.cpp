@@ -16,7 +16,7 @@ extern template struct VotingAlgorithms<CudaExecutor>;
 namespace {
 constexpr std::uint32_t kMostVoters = 512;   ///< (T) docs/experiments/places.md
 constexpr std::uint32_t kFewestVoters = 96;  ///< (T)
-constexpr std::size_t kMostVotes = 32768;   ///< pairs of voter and view, beyond which fewer pixels vote
+constexpr std::size_t kMostVotes = 32768;    ///< pairs of voter and view, beyond which fewer pixels vote
 }  // namespace
 
 PlaceVotes::PlaceVotes(const Context& context)

@@ -27,8 +27,8 @@ struct ChooseVoter {
   }
 };
 
-/// One team per place and roll adds up how close its leaves' colours are to their voters'. The colours of a place's leaves fit into a cache,
-/// and no access waits for another.
+/// One team per place and roll adds up how close its leaves' colours are to their voters'. The colours of a place's leaves fit into a
+/// cache, and no access waits for another.
 struct CountVotes {
   int num_trees;
   std::uint32_t num_leaves;

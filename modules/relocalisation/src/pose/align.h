@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "foothold/base/array.h"
 #include "foothold/base/se3.h"
@@ -38,25 +37,19 @@ struct SurfaceOffset {
 /// The progress of an alignment; in device memory, so that no step waits for the host.
 struct AlignmentState {
   SE3 scene_from_camera;
-  float misfit;  ///< 0 if every sample lies on the remembered surface, 1 if none has any of it around
   std::int32_t ended;
 };
-static_assert(sizeof(AlignmentState) == 56, "lives in device memory");
+static_assert(sizeof(AlignmentState) == 52, "lives in device memory");
 
 /// Owns all of it.
 struct Alignment {
-  Alignment(const Memory& memory, int num_samples, int num_candidates)
-      : surfaces(memory, static_cast<std::size_t>(num_samples)),
-        near(memory),
-        offsets(memory, surfaces.size()),
-        state(memory, 1),
-        misfits(memory, Span<const float>(std::vector<float>(static_cast<std::size_t>(num_candidates), 1.0F))) {}
+  Alignment(const Memory& memory, int num_samples)
+      : surfaces(memory, static_cast<std::size_t>(num_samples)), near(memory), offsets(memory, surfaces.size()), state(memory, 1) {}
 
   Array<SurfaceSample> surfaces;
   Array<NearPoints> near;        ///< samples x trees
   Array<SurfaceOffset> offsets;  ///< per sample
   Array<AlignmentState> state;
-  Array<float> misfits;  ///< per candidate; 1 for those that were not aligned
 };
 
 }  // namespace foothold

@@ -16,19 +16,15 @@ struct BeginAlignment {
   HypothesesView hypotheses;
   AlignmentState* state;
 
-  FOOTHOLD_HD void operator()(std::size_t) const { *state = {hypotheses.pose_at(0), 1.0F, 0}; }
+  FOOTHOLD_HD void operator()(std::size_t) const { *state = {hypotheses.pose_at(0), 0}; }
 };
 
 /// Puts the aligned pose back in its place.
 struct EndAlignment {
   const AlignmentState* state;
   HypothesesView hypotheses;
-  float* misfits;  ///< per slot
 
-  FOOTHOLD_HD void operator()(std::size_t) const {
-    hypotheses.pose_at(0) = state->scene_from_camera;
-    misfits[0] = state->misfit;
-  }
+  FOOTHOLD_HD void operator()(std::size_t) const { hypotheses.pose_at(0) = state->scene_from_camera; }
 };
 
 /// Looks up the points that leaves remember within reach of a sample, once for all steps: the first kNearPoints of each leaf.
@@ -159,7 +155,6 @@ struct AlignWithPoints {
   const SurfaceSample* surfaces;
   const SurfaceOffset* offsets;
   int num_samples;
-  float radius_m;
   AlignmentState* state;
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
@@ -169,7 +164,6 @@ struct AlignWithPoints {
     for (int i = team.lane(); i < num_samples; i += team.size()) add_sample(pose, static_cast<std::size_t>(i), sums);
     team.sum_all(sums);
     if (team.lane() != 0) return;
-    state->misfit = 1.0F - sums[kFit] / (sums[kNumWithSurface] > 0.0F ? sums[kNumWithSurface] : 1.0F);
     float twist[6];
     if (sums[kNumSupported] >= kMinSupported && solve_for_twist(sums, kDamping, twist)) {
       state->scene_from_camera = perturbed(pose, twist);
@@ -181,9 +175,7 @@ struct AlignWithPoints {
  private:
   // Behind the Hessian and the gradient:
   static constexpr int kNumSupported = kNumHessian + 6;  ///< samples with remembered points around them
-  static constexpr int kNumWithSurface = kNumSupported + 1;
-  static constexpr int kFit = kNumSupported + 2;
-  static constexpr int kNumAlignmentSums = kNumSupported + 3;
+  static constexpr int kNumAlignmentSums = kNumSupported + 1;
   static constexpr float kMinSupported = 50.0F;  ///< samples below which the alignment is not trusted
   static constexpr float kDamping = 1e-4F;
   static constexpr float kMinWeight = 0.5F;  ///< one remembered point nearby
@@ -191,14 +183,11 @@ struct AlignWithPoints {
   FOOTHOLD_HD FOOTHOLD_INLINE void add_sample(const SE3& pose, std::size_t i, float (&sums)[kNumAlignmentSums]) const {
     const SurfaceSample& surface = surfaces[i];
     if (!has_normal(surface)) return;
-    sums[kNumWithSurface] += 1.0F;
     const SurfaceOffset& sum = offsets[i];
     if (sum.weight < kMinWeight) return;
     const float residual_m = sum.offset_mm / sum.weight * 1e-3F;  // along the normal, from the sample to the remembered surface
     add_point_to_plane(pose.rotation * point_of(surface), pose.rotation * normal_of(surface), residual_m, 1.0F, sums);
     sums[kNumSupported] += 1.0F;
-    const float distance = std::fabs(residual_m) / radius_m;
-    sums[kFit] += distance < 1.0F ? 1.0F - distance : 0.0F;
   }
 };
 
@@ -223,7 +212,7 @@ class Aligner {
     project(ranking, state);
     find_near_points(pool, alignment);
     for (int i = 0; i < kLeafSteps; ++i) approach(i, alignment);
-    executor_.for_each(1, EndAlignment{state, hypotheses.view(), alignment.misfits.data()});
+    executor_.for_each(1, EndAlignment{state, hypotheses.view()});
   }
 
  private:
@@ -258,7 +247,7 @@ class Aligner {
                        MeasureOffset{num_trees_, alignment.surfaces.data(), alignment.near.data(), 1000.0F * radius_m,
                                      alignment.state.data(), alignment.offsets.data()});
     executor_.for_each_team(
-        1, AlignWithPoints<Executor>{alignment.surfaces.data(), alignment.offsets.data(), num_used, radius_m, alignment.state.data()});
+        1, AlignWithPoints<Executor>{alignment.surfaces.data(), alignment.offsets.data(), num_used, alignment.state.data()});
   }
 
   Executor executor_;

@@ -19,10 +19,9 @@ struct PoseCandidate {
   float mean_energy = 0.0F;      ///< truncated Mahalanobis distance per pooled pixel, Eq. 4
   float inlier_fraction = 0.0F;  ///< pooled pixels with a mode within kInlierDistanceM, among all pooled pixels with depth
   float fine_fraction = 0.0F;    ///< the same within kFineInlierDistanceM
-  float surface_fit = 0.0F;      ///< how well samples lie on the remembered surface, 0 to 1; 0 for candidates that were not aligned
   SceneAgreement agreement{};    ///< of the best; not valid for others, or if the plan does not confront the scene
   std::int32_t valid = 0;
 };
-static_assert(sizeof(PoseCandidate) == 96, "copied from the device");
+static_assert(sizeof(PoseCandidate) == 88, "copied from the device");
 
 }  // namespace foothold

@@ -11,7 +11,7 @@
 
 namespace foothold {
 
-inline constexpr std::size_t kNumConfidenceFeatures = 9;
+inline constexpr std::size_t kNumConfidenceFeatures = 6;
 
 /// What the confidence in an aligned candidate is made from, and how much each counts.
 struct ConfidenceFeature {
@@ -20,26 +20,20 @@ struct ConfidenceFeature {
 };
 /// (T) Fitted by scripts/fit_confidence.py to rendered rooms alone, training-20 to training-35 (data/forest_confidence.csv):
 /// docs/experiments/trust.md.
-inline constexpr std::array<ConfidenceFeature, kNumConfidenceFeatures> kConfidenceFeatures{{{"log_inliers", 0.644F},
-                                                                                            {"log_fine_inliers", 1.536F},
-                                                                                            {"surface_fit", 5.709F},
-                                                                                            {"agreeing", 6.019F},
-                                                                                            {"contradicted", -5.956F},
-                                                                                            {"colour_correlation", 10.997F},
-                                                                                            {"contradicted_tiles", -4.942F},
-                                                                                            {"shifted", -2.871F},
-                                                                                            {"rival", -3.900F}}};
-inline constexpr float kConfidenceIntercept = -4.256F;
+inline constexpr std::array<ConfidenceFeature, kNumConfidenceFeatures> kConfidenceFeatures{{{"log_fine_inliers", 2.666F},
+                                                                                            {"agreeing", 6.380F},
+                                                                                            {"contradicted", -8.076F},
+                                                                                            {"colour_correlation", 11.182F},
+                                                                                            {"shifted", -2.795F},
+                                                                                            {"rival", -3.253F}}};
+inline constexpr float kConfidenceIntercept = -1.151F;
 
 inline std::array<float, kNumConfidenceFeatures> confidence_features(const PoseCandidate& candidate) {
   const SceneAgreement& scene = candidate.agreement;
-  return {std::log(candidate.inlier_fraction + 0.01F),
-          std::log(candidate.fine_fraction + 0.005F),
-          candidate.surface_fit,
+  return {std::log(candidate.fine_fraction + 0.005F),
           scene.agreeing_fraction,
           scene.contradicted_fraction,
           scene.colour_correlation,
-          scene.contradicted_tiles,
           scene.shifted_agreement,
           scene.rival_agreement};
 }

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// Confronting the best pose with all points that were drawn of the scene, tile by tile: an object that is missing contradicts a pose in
-/// one place, noise all over. Not in the paper.
+/// Confronting the best pose with all points that were drawn of the scene, and with poses that explain the frame, too. Not in the paper.
 #pragma once
 
 #include <cmath>
 
-#include "foothold/base/exec/atomics.h"
 #include "pose/rank_kernels.h"
 
 namespace foothold {
@@ -19,7 +17,7 @@ FOOTHOLD_HD inline float grey_level(const Colour& r, const Colour& g, const Colo
   return 0.299F * static_cast<float>(r) + 0.587F * static_cast<float>(g) + 0.114F * static_cast<float>(b);
 }
 
-/// Projects the points into the frame from the best pose, and counts, as a whole and by tile. One team.
+/// Projects the points into the frame from the best pose, and counts. One team.
 template <class Executor>
 struct ConfrontPoints {
   FeatureImageView image;
@@ -27,7 +25,6 @@ struct ConfrontPoints {
   const RememberedPoint* points;
   int num_points;
   HypothesesView hypotheses;
-  TileCounts* tiles;
   SceneAgreement* agreement;
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
@@ -57,13 +54,8 @@ struct ConfrontPoints {
     const PointSighting sighting = sight(image, intrinsics, point_camera);
     if (sighting.state == PointState::kOutOfView) return;
     sums[kInView] += 1.0F;
-    TileCounts& tile = tiles[tile_of(sighting.pixel)];
-    if (sighting.state == PointState::kContradicted) {
-      sums[kContradicted] += 1.0F;
-      atomic_add(&tile.num_contradicted, 1U);
-    }
+    sums[kContradicted] += sighting.state == PointState::kContradicted ? 1.0F : 0.0F;
     if (sighting.state != PointState::kAgrees) return;
-    atomic_add(&tile.num_agreeing, 1U);
     const FeaturePixel& pixel = image.pixels[sighting.pixel];
     // About the middle of their range, which keeps the sums' digits.
     const float live = grey_level(pixel.r(), pixel.g(), pixel.b()) * (1.0F / 128.0F) - 1.0F;
@@ -76,10 +68,6 @@ struct ConfrontPoints {
     sums[kLiveScene] += live * scene;
   }
 
-  FOOTHOLD_HD int tile_of(int pixel) const {
-    return pixel / image.width * kTileRows / image.height * kTileColumns + pixel % image.width * kTileColumns / image.width;
-  }
-
   /// Shrunk towards 0 where there are few points.
   FOOTHOLD_HD static float correlation(const float (&sums)[kNumSums]) {
     const float n = sums[kAgreeing];
@@ -89,27 +77,6 @@ struct ConfrontPoints {
     const float covariance = sums[kLiveScene] - sums[kLive] * sums[kScene] / n;
     const float product = live_variance * scene_variance;
     return product > 0.0F ? covariance / std::sqrt(product) * (n / (n + kAgreementPrior)) : 0.0F;
-  }
-};
-
-/// Sums up the tiles, and empties them for the next frame. One team.
-template <class Executor>
-struct SumTiles {
-  TileCounts* tiles;
-  SceneAgreement* agreement;
-
-  FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
-    constexpr std::uint32_t kFewestPoints = 3;  // (T) of a tile that says anything
-    float sums[2] = {};                         // tiles that say something; those most of whose points are seen through
-    for (int tile = team.lane(); tile < kNumTiles; tile += team.size()) {
-      const TileCounts counts = tiles[tile];
-      tiles[tile] = {};
-      if (counts.num_agreeing + counts.num_contradicted < kFewestPoints) continue;
-      sums[0] += 1.0F;
-      sums[1] += counts.num_contradicted > 2 * counts.num_agreeing ? 1.0F : 0.0F;
-    }
-    team.sum_all(sums);
-    if (team.lane() == 0) agreement->contradicted_tiles = sums[1] / (sums[0] > 0.0F ? sums[0] : 1.0F);
   }
 };
 
@@ -177,8 +144,7 @@ void confront(const Executor& executor, const PoseQuery& query, std::size_t num_
   executor.for_each_team(kNumShifts, ConfrontShifted<Executor>{image, query.averaged_intrinsics(), ranking.points.data(), kRankingPoints,
                                                                hypotheses.view(), ranking.shifted.data()});
   executor.for_each_team(1, ConfrontPoints<Executor>{image, query.averaged_intrinsics(), ranking.points.data(), kRememberedPoints,
-                                                     hypotheses.view(), ranking.tiles.data(), ranking.agreement.data()});
-  executor.for_each_team(1, SumTiles<Executor>{ranking.tiles.data(), ranking.agreement.data()});
+                                                     hypotheses.view(), ranking.agreement.data()});
   executor.for_each_team(1, FindRivals<Executor>{hypotheses.view(), ranking.evidence.data(), num_candidates, ranking.shifted.data(),
                                                  ranking.agreement.data()});
 }

@@ -16,7 +16,6 @@ struct EvaluateCandidates {
   const SampledPixel* sampled;
   std::size_t pool_size;
   HypothesesView hypotheses;
-  const float* misfits;             ///< per slot
   const SceneAgreement* agreement;  ///< what the scene says about the one in the first slot
   std::size_t num_candidates;
   float truncation;
@@ -45,7 +44,6 @@ struct EvaluateCandidates {
       candidate.mean_energy = (sums[w] + truncation * (num_with_depth - num_pixels)) * scale;
       candidate.inlier_fraction = sums[kWidth + w] * scale;
       candidate.fine_fraction = sums[2 * kWidth + w] * scale;
-      candidate.surface_fit = 1.0F - misfits[first_slot + static_cast<std::size_t>(w)];
       candidate.agreement = first_slot + static_cast<std::size_t>(w) == 0 ? *agreement : SceneAgreement{};
       candidate.valid = hypotheses.energies[poses.index[w]] < kFailedEnergy ? 1 : 0;
     }

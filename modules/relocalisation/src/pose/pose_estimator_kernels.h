@@ -82,15 +82,9 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
   // What failed is no candidate. On CUDA none is left out: this touches no device memory.
   std::fill(buffers.candidates.data() + num_evaluated, buffers.candidates.data() + num_candidates, PoseCandidate{});
   for_each_group(executor, num_evaluated, [&](auto width) {
-    return EvaluateCandidates<decltype(width)::value>{pool,
-                                                      buffers.pool.sampled.data(),
-                                                      buffers.pool.sampled.size(),
-                                                      hypotheses.view(),
-                                                      buffers.alignment.misfits.data(),
-                                                      buffers.ranking.agreement.data(),
-                                                      num_evaluated,
-                                                      plan.energy_truncation,
-                                                      buffers.candidates.data()};
+    return EvaluateCandidates<decltype(width)::value>{
+        pool,          buffers.pool.sampled.data(), buffers.pool.sampled.size(), hypotheses.view(), buffers.ranking.agreement.data(),
+        num_evaluated, plan.energy_truncation,      buffers.candidates.data()};
   });
   if (plan.confronts_scene) rejoin(executor, query, place.latest, buffers.alignment, buffers.candidates);
 }

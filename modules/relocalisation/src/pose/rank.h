@@ -35,28 +35,16 @@ struct SceneEvidence {
 };
 static_assert(sizeof(SceneEvidence) == 12, "lives in device memory");
 
-/// The grid of tiles by which the best pose is confronted with the scene: what is missing is missing in one piece, noise is not (T).
-inline constexpr int kTileColumns = 16;
-inline constexpr int kTileRows = 12;
-inline constexpr int kNumTiles = kTileColumns * kTileRows;
-
-/// Remembered points that project into one tile.
-struct TileCounts {
-  std::uint32_t num_agreeing;      ///< at the measured depth
-  std::uint32_t num_contradicted;  ///< the camera sees through them
-};
-
 /// What all remembered points say about the best pose, once it is aligned.
 struct SceneAgreement {
   float agreeing_fraction;      ///< of the points in view, at the measured depth
   float contradicted_fraction;  ///< of the points in view, seen through
   float colour_correlation;     ///< of the grey values of agreeing points and their pixels; whatever the light
-  float contradicted_tiles;     ///< of the tiles where the scene is remembered, those most of whose points are seen through
   float shifted_agreement;      ///< agreeing less contradicted fraction from where the camera is not, kShiftM away: the best of kNumShifts
   float rival_agreement;        ///< alike less contradicted fraction of the best candidate elsewhere; -1 without one
   std::int32_t valid;           ///< 0 if there was nothing to confront the pose with
 };
-static_assert(sizeof(SceneAgreement) == 28, "copied from the device");
+static_assert(sizeof(SceneAgreement) == 24, "copied from the device");
 
 /// How far a pose is shifted along the camera's axes, to and fro, to see how distinct the view is (T).
 inline constexpr float kShiftM = 0.2F;
@@ -67,19 +55,16 @@ struct Ranking {
   Ranking(const Memory& memory, int num_points, int num_hypotheses)
       : points(memory, static_cast<std::size_t>(num_points)),
         evidence(memory, static_cast<std::size_t>(num_hypotheses)),
-        tiles(memory, kNumTiles),
         shifted(memory, kNumShifts),
         agreement(memory, 1) {
     evidence.clear_to_zero();
-    tiles.clear_to_zero();
     shifted.clear_to_zero();
     agreement.clear_to_zero();
   }
 
   Array<RememberedPoint> points;
-  Array<SceneEvidence> evidence;  ///< per hypothesis; of no meaning for those that have failed
-  Array<TileCounts> tiles;
-  Array<float> shifted;  ///< agreeing less contradicted fraction of each shift
+  Array<SceneEvidence> evidence;              ///< per hypothesis; of no meaning for those that have failed
+  Array<float> shifted;                       ///< agreeing less contradicted fraction of each shift
   Array<SceneAgreement> agreement;            ///< of the best pose
   const std::uint32_t* drawn_from = nullptr;  ///< counts of the reservoirs that the points were drawn from; nullptr for a new query
 };
