@@ -24,7 +24,7 @@ LeafReservoirs reservoirs_of(const std::vector<ReservoirPoint>& points, const Co
 NearPoints near_points_of(const std::vector<ReservoirPoint>& points, const SurfaceSample& surface, const SE3& scene_from_camera) {
   LeafReservoirs reservoirs = reservoirs_of(points, test::context_of(1));
   const std::uint32_t leaf = 0;
-  const AlignmentState state{scene_from_camera, 1.0F, 0};
+  const AlignmentState state{scene_from_camera, 0};
   NearPoints found{};
   FindNearPoints<1>{reservoirs.view(), 1, 1, &leaf, &surface, 1, 80.0F, &state, &found}(0);
   return found;
@@ -58,7 +58,7 @@ TEST_CASE("FindNearPoints: finds the same points one by one and several at once"
     leaves.push_back(i == 5 ? 1 : 0);  // beyond the last leaf
   }
   leaves.resize(kNumItems, 0);
-  const AlignmentState state{SE3{}, 1.0F, 0};
+  const AlignmentState state{SE3{}, 0};
   const NearPoints untouched{{7}, {7}, {7}, 7};
   std::vector<NearPoints> single(kNumItems, untouched);
   std::vector<NearPoints> together(kNumItems, untouched);

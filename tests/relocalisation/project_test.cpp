@@ -55,7 +55,7 @@ std::vector<RememberedPoint> points_of_corner(Random& random, int num_points, co
 AlignmentState align(const std::vector<RememberedPoint>& points, const SE3& start, int num_steps) {
   const std::vector<FeaturePixel> pixels = corner();
   const SurfaceEstimator estimator{{pixels.data(), kWidth, kHeight, 1.0F}, kCamera, 2};
-  AlignmentState state{start, 1.0F, 0};
+  AlignmentState state{start, 0};
   for (int i = 0; i < num_steps; ++i) AlignByProjection<CpuExecutor, DrawnPoints>{estimator, {points}, 1, 0.05F, &state}(CpuTeam{}, 0);
   return state;
 }
@@ -113,7 +113,7 @@ TEST_CASE("Rejoin: a pose is drawn to the points of the latest camera, unless fe
     bool moves;
   } cases[] = {{in_view, true}, {hardly_in_view, false}, {without_depth, false}};
   for (const auto& c : cases) {
-    AlignmentState state{start, 1.0F, 0};
+    AlignmentState state{start, 0};
     PoseCandidate best;
     const SurfaceEstimator estimator{{pixels.data(), kWidth, kHeight, 1.0F}, kCamera, 2};
     Rejoin<CpuExecutor>{{estimator, {c.points}, 8, 0.03F, &state}, &best}(CpuTeam{}, 0);
