@@ -3,6 +3,7 @@
 #include "places/place_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "foothold/base/trace.h"
@@ -18,7 +19,8 @@ constexpr float kLikelyVotes = 0.4F;                          ///< of the highes
 constexpr float kRivalVotes = 0.6F;                           ///< the same, from which a place may be mistaken for the other
 constexpr std::size_t kMostPlaces = 5;                        ///< upright attempts
 constexpr std::size_t kMostUnlikely = 3;                      ///< the same, where no place has many votes
-constexpr std::size_t kMostRolledViews = 2;                   ///< attempts of rolled cameras
+constexpr std::size_t kMostRolledViews = 2;                   ///< attempts of rolled cameras; one, where no roll has many votes
+constexpr float kFewestRolledVotes = 0.005F;                  ///< share below which they are hardly ever right
 constexpr float kOtherLights[] = {0.45F, 0.67F, 1.5F, 2.2F};  ///< gains in which unfamiliar views are asked
 constexpr float kBetterLight = 2.0F;                          ///< more votes in it by this factor
 constexpr float kSamePlaceM = 0.5F;                           ///< poses nearer than this do not exclude each other
@@ -48,7 +50,8 @@ float odds_of(const Attempt& attempt) { return attempt.confidence() / std::max(1
 
 /// The best attempt's estimates, and the best of its rivals: what was found in other places, elsewhere. A confidence is the probability
 /// that an attempt is right were it the only one; of places that exclude each other at most one is: p_i = o_i / (1 + sum o_j), with the
-/// odds o = c / (1 - c).
+/// odds o = c / (1 - c). Rivals that are nearly as good must not be outdone by chance: theirs are raised half-way to the best's,
+/// sqrt(o_j o_best).
 /// @param num_untried  Rivals that were not tried: each may explain the frame as well as the best.
 std::vector<PoseEstimate> combine(std::vector<Attempt> attempts, int num_untried, std::size_t num_candidates) {
   if (attempts.empty()) return {};
@@ -63,11 +66,12 @@ std::vector<PoseEstimate> combine(std::vector<Attempt> attempts, int num_untried
   }
   if (rivals.empty() && num_untried == 0) return estimates;
   float sum_of_odds = static_cast<float>(1 + num_untried) * odds_of(best);
-  for (const Attempt* rival : rivals) sum_of_odds += odds_of(*rival);
+  const auto rival_odds = [&](const Attempt& rival) { return std::sqrt(odds_of(rival) * odds_of(best)); };
+  for (const Attempt* rival : rivals) sum_of_odds += rival_odds(*rival);
   const float scale = odds_of(best) / (1.0F + sum_of_odds) / std::max(best.confidence(), 1e-6F);
   for (PoseEstimate& estimate : estimates) estimate.confidence *= scale;
   for (const Attempt* rival : rivals) {
-    estimates.push_back({rival->estimates.front().world_from_camera, odds_of(*rival) / (1.0F + sum_of_odds)});
+    estimates.push_back({rival->estimates.front().world_from_camera, rival_odds(*rival) / (1.0F + sum_of_odds)});
   }
   std::stable_sort(estimates.begin(), estimates.end(),
                    [](const PoseEstimate& a, const PoseEstimate& b) { return a.confidence > b.confidence; });
@@ -154,8 +158,9 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   for (int roll = 1; roll < forest.num_rolls(); ++roll) rolled.push_back(forest.view(roll));
   if (confidence < sure_confidence_ && is_time_left()) {
     const std::vector<PlaceVote> votes = votes_.count(context, query, modes, rolled, 1);
-    for (std::size_t i = 0; i < votes.size() && i < kMostRolledViews; ++i) {
-      if (votes[i].share < std::max(kFewestVotes, most) || confidence >= sure_confidence_ || !is_time_left()) break;
+    const std::size_t most_rolled = most_votes(votes) >= kFewestVotes ? kMostRolledViews : 1;
+    for (std::size_t i = 0; i < votes.size() && i < most_rolled; ++i) {
+      if (votes[i].share < std::max(kFewestRolledVotes, most) || confidence >= sure_confidence_ || !is_time_left()) break;
       attempt(votes[i]);
     }
   }
