@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// The calibration files of a recording's folder together: what is accepted is a calibration of images of the asked sizes. Bytes 0xff separate
-/// camera-intrinsics.txt, colour-intrinsics.txt, depth-from-colour.txt and what the user gave; the very first byte chooses the sizes.
+/// The calibration files of a recording's folder together: what is accepted is a calibration of images of the asked sizes. Bytes 0xff
+/// separate camera-intrinsics.txt, colour-intrinsics.txt, depth-from-colour.txt and what the user gave; the very first byte chooses the
+/// sizes.
 #include <unistd.h>
 
 #include <filesystem>

@@ -23,6 +23,7 @@ constexpr std::size_t kMostRolledViews = 2;                   ///< attempts of r
 constexpr float kFewestRolledVotes = 0.005F;                  ///< share below which they are hardly ever right
 constexpr float kOtherLights[] = {0.45F, 0.67F, 1.5F, 2.2F};  ///< gains in which unfamiliar views are asked
 constexpr float kBetterLight = 2.0F;                          ///< more votes in it by this factor
+constexpr std::uint32_t kLightVoters = 128;                   ///< in each
 constexpr float kSamePlaceM = 0.5F;                           ///< poses nearer than this do not exclude each other
 
 /// The estimates of one attempt, in the world's frame.
@@ -46,7 +47,8 @@ struct Attempt {
   float confidence() const { return estimates.front().confidence; }
 };
 
-float odds_of(const Attempt& attempt) { return attempt.confidence() / std::max(1.0F - attempt.confidence(), 1e-6F); }
+/// Beyond 0.9999 confidences differ by chance.
+float odds_of(const Attempt& attempt) { return attempt.confidence() / std::max(1.0F - attempt.confidence(), 1e-4F); }
 
 /// The best attempt's estimates, and the best of its rivals: what was found in other places, elsewhere. A confidence is the probability
 /// that an attempt is right were it the only one; of places that exclude each other at most one is: p_i = o_i / (1 + sum o_j), with the
@@ -89,23 +91,30 @@ PlaceSearch::PlaceSearch(const Context& context, const ForestRelocaliserSettings
       num_candidates_(static_cast<std::size_t>(settings.pose.num_candidates)),
       votes_(context),
       estimator_(context, SearchPlan(settings.pose, settings.seed)),
-      relit_(context),
-      best_lit_(context) {}
+      relit_(context) {}
 
-void PlaceSearch::find_light(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
-                             const ForestView& forest, const FeatureImage*& image, std::vector<PlaceVote>& votes) {
-  float to_beat = std::max(kFewestVotes, kBetterLight * most_votes(votes));
-  for (const float gain : kOtherLights) {
+const FeatureImage& PlaceSearch::find_light(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
+                                            const ForestView& forest, std::vector<PlaceVote>& votes) {
+  const auto count = [&](float gain, std::uint32_t num_voters) {
     relit_.relight(context, query.image, gain);
     const PoseQuery relit{query.frame, relit_};
     votes_.prepare(context, relit);
-    std::vector<PlaceVote> relit_votes = votes_.count(context, relit, places, {forest}, 0);
-    if (most_votes(relit_votes) < to_beat) continue;
-    to_beat = most_votes(relit_votes);
-    votes = std::move(relit_votes);
-    std::swap(relit_, best_lit_);
-    image = &best_lit_;
+    return votes_.count(context, relit, places, {forest}, 0, num_voters);
+  };
+  float best_gain = 1.0F;
+  float to_beat = std::max(kFewestVotes, kBetterLight * most_votes(votes));
+  for (const float gain : kOtherLights) {
+    const float most = most_votes(count(gain, kLightVoters));
+    if (most < to_beat) continue;
+    to_beat = most;
+    best_gain = gain;
   }
+  if (best_gain == 1.0F) {
+    votes_.prepare(context, query);
+    return query.image;
+  }
+  votes = count(best_gain, kMostVoters);
+  return relit_;
 }
 
 std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQuery& as_seen, const DeviceForest& forest,
@@ -115,14 +124,10 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   std::vector<LeafModesView> modes;
   for (std::size_t i = 0; i < places.size(); ++i) modes.push_back(places[i].modes.view());
 
-  const FeatureImage* image = &as_seen.image;
   votes_.prepare(context, as_seen);
-  std::vector<PlaceVote> upright = votes_.count(context, as_seen, modes, {forest.view()}, 0);
-  if (most_votes(upright) < kFewestVotes && is_time_left()) {
-    find_light(context, as_seen, modes, forest.view(), image, upright);
-    votes_.prepare(context, {as_seen.frame, *image});
-  }
-  const PoseQuery query{as_seen.frame, *image};
+  std::vector<PlaceVote> upright = votes_.count(context, as_seen, modes, {forest.view()}, 0, kMostVoters);
+  const bool seems_unfamiliar = most_votes(upright) < kFewestVotes && is_time_left();
+  const PoseQuery query{as_seen.frame, seems_unfamiliar ? find_light(context, as_seen, modes, forest.view(), upright) : as_seen.image};
   estimator_.prepare(context, query);
 
   std::vector<Attempt> attempts;
@@ -157,7 +162,7 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   std::vector<ForestView> rolled;
   for (int roll = 1; roll < forest.num_rolls(); ++roll) rolled.push_back(forest.view(roll));
   if (confidence < sure_confidence_ && is_time_left()) {
-    const std::vector<PlaceVote> votes = votes_.count(context, query, modes, rolled, 1);
+    const std::vector<PlaceVote> votes = votes_.count(context, query, modes, rolled, 1, kMostVoters);
     const std::size_t most_rolled = most_votes(votes) >= kFewestVotes ? kMostRolledViews : 1;
     for (std::size_t i = 0; i < votes.size() && i < most_rolled; ++i) {
       if (votes[i].share < std::max(kFewestRolledVotes, most) || confidence >= sure_confidence_ || !is_time_left()) break;

@@ -30,10 +30,10 @@ class PlaceSearch {
 
  private:
   /// Votes for an unfamiliar view in other lights.
-  /// @param image  Input and output: the view, in the light in which it has more votes by far if there is one.
-  /// @param votes  Input and output: those for the image.
-  void find_light(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places, const ForestView& forest,
-                  const FeatureImage*& image, std::vector<PlaceVote>& votes);
+  /// @param votes  Input and output: those for the view that is returned.
+  /// @return       The view in the light in which it has more votes by far, or as it is. The voters are prepared for it.
+  const FeatureImage& find_light(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
+                                 const ForestView& forest, std::vector<PlaceVote>& votes);
 
   float sure_confidence_;
   double max_ms_;  ///< 0 for no limit
@@ -41,7 +41,6 @@ class PlaceSearch {
   PlaceVotes votes_;
   PoseEstimator estimator_;
   FeatureImage relit_;
-  FeatureImage best_lit_;
 };
 
 }  // namespace foothold

@@ -14,7 +14,6 @@ extern template struct VotingAlgorithms<CudaExecutor>;
 #endif
 
 namespace {
-constexpr std::uint32_t kMostVoters = 512;   ///< (T) docs/experiments/places.md
 constexpr std::uint32_t kFewestVoters = 96;  ///< (T)
 constexpr std::size_t kMostVotes = 32768;    ///< pairs of voter and view, beyond which fewer pixels vote
 }  // namespace
@@ -36,12 +35,12 @@ void PlaceVotes::prepare(const Context& context, const PoseQuery& query) {
 }
 
 std::vector<PlaceVote> PlaceVotes::count(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
-                                         const std::vector<ForestView>& forests, int first_roll) {
+                                         const std::vector<ForestView>& forests, int first_roll, std::uint32_t most_voters) {
   const ScopedStage stage(context, "relocalise/vote");
   if (forests.empty() || places.empty()) return {};
   const int num_trees = forests.front().num_trees;
-  const auto num_voters =
-      static_cast<std::uint32_t>(std::clamp<std::size_t>(kMostVotes / (places.size() * forests.size()), kFewestVoters, kMostVoters));
+  const auto num_voters = static_cast<std::uint32_t>(
+      std::clamp<std::size_t>(kMostVotes / (places.size() * forests.size()), std::min(kFewestVoters, most_voters), most_voters));
   const std::size_t num_pairs = num_voters * static_cast<std::size_t>(num_trees);
   leaves_.resize(num_pairs * forests.size());
   for (std::size_t i = 0; i < forests.size(); ++i) {

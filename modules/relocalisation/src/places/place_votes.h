@@ -21,6 +21,9 @@ struct PlaceVote {
   float share = 0.0F;  ///< how close the voters' leaves come to their colours, of what is possible: see closeness()
 };
 
+/// How many pixels vote if there are few places. (T) docs/experiments/places.md
+inline constexpr std::uint32_t kMostVoters = 512;
+
 /// Counts the votes of a frame.
 ///
 /// Determinism: a function of the arguments alone.
@@ -31,12 +34,13 @@ class PlaceVotes {
   /// Chooses the voters of a frame, evenly spread over it.
   void prepare(const Context& context, const PoseQuery& query);
 
-  /// @param places   what is remembered of each.
-  /// @param forests  turned to the rolls first_roll, first_roll + 1, ...
-  /// @return         A vote for each place and roll, the highest share first; equals stay in the order of rolls, then places.
+  /// @param places       what is remembered of each.
+  /// @param forests      turned to the rolls first_roll, first_roll + 1, ...
+  /// @param most_voters  at most kMostVoters; fewer vote on many places.
+  /// @return             A vote for each place and roll, the highest share first; equals stay in the order of rolls, then places.
   /// @pre prepare() was called with the same query.
   std::vector<PlaceVote> count(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
-                               const std::vector<ForestView>& forests, int first_roll);
+                               const std::vector<ForestView>& forests, int first_roll, std::uint32_t most_voters);
 
  private:
   Array<SampledPixel> voters_;
