@@ -66,7 +66,7 @@ FOOTHOLD_FUZZ_TARGET(calibration) {
   for (const char* name : kFiles) folder.put(name, next_part(text));
 
   fuzz::attempt([&] { require_calibration(read_calibration(folder.path().string())); });
-  io::SequenceOptions options;
+  SequenceOptions options;
   options.intrinsics = next_part(text);
   if (options.intrinsics.find_first_not_of("0123456789.,+-eE ") != std::string::npos) options.intrinsics.clear();  // would be a path
   io::CalibrationHints hints;

@@ -16,7 +16,7 @@ namespace {
 // (T) docs/experiments/places.md
 constexpr float kFewestVotes = 0.02F;                         ///< share below which a view is hardly ever of a place that was learnt
 constexpr float kLikelyVotes = 0.4F;                          ///< of the highest share, from which a place may be the right one
-constexpr float kRivalVotes = 0.6F;                           ///< the same, from which a place may be mistaken for the other
+constexpr float kRivalVotes = 0.7F;                           ///< the same, from which a place may be mistaken for the other
 constexpr std::size_t kMostPlaces = 5;                        ///< upright attempts
 constexpr std::size_t kMostUnlikely = 3;                      ///< the same, where no place has many votes
 constexpr std::size_t kMostRolledViews = 2;                   ///< attempts of rolled cameras; one, where no roll has many votes
