@@ -81,6 +81,38 @@ std::vector<PoseEstimate> combine(std::vector<Attempt> attempts, int num_untried
   return estimates;
 }
 
+/// What was found so far.
+class Attempts {
+ public:
+  Attempts(const Context& context, PoseEstimator& estimator, const PoseQuery& query, ScenePlaces& places, Explanation* explanation)
+      : context_(context), estimator_(estimator), query_(query), places_(places), explanation_(explanation) {}
+
+  /// Estimates the pose in a place that was voted for.
+  void make(const PlaceVote& vote, const DeviceForest& forest) {
+    Place& place = places_[vote.place];
+    const PlaceView view{place.reservoirs.view(), place.modes.view(), Span<const ReservoirPoint>(place.latest)};
+    std::vector<PoseEstimate> estimates = estimates_of(estimator_.estimate(context_, query_, view, forest.view(vote.roll)), place);
+    if (estimates.empty()) return;
+    if (attempts_.empty() || estimates.front().confidence > confidence_) {
+      confidence_ = estimates.front().confidence;
+      if (explanation_ != nullptr) *explanation_ = explain(estimator_, estimates, place.origin_world);
+    }
+    attempts_.push_back({vote.place, std::move(estimates)});
+  }
+
+  float confidence() const { return confidence_; }  ///< the highest; 0 if there is none
+  std::vector<Attempt> take() { return std::move(attempts_); }
+
+ private:
+  const Context& context_;
+  PoseEstimator& estimator_;
+  const PoseQuery& query_;
+  ScenePlaces& places_;
+  Explanation* explanation_;
+  std::vector<Attempt> attempts_;
+  float confidence_ = 0.0F;
+};
+
 float most_votes(const std::vector<PlaceVote>& votes) { return votes.empty() ? 0.0F : votes.front().share; }
 
 }  // namespace
@@ -117,6 +149,13 @@ const FeatureImage& PlaceSearch::find_light(const Context& context, const PoseQu
   return relit_;
 }
 
+std::vector<PlaceVote> PlaceSearch::vote_rolled(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
+                                                const DeviceForest& forest) {
+  std::vector<ForestView> rolled;
+  for (int roll = 1; roll < forest.num_rolls(); ++roll) rolled.push_back(forest.view(roll));
+  return votes_.count(context, query, places, rolled, 1, kMostVoters);
+}
+
 std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQuery& as_seen, const DeviceForest& forest,
                                             ScenePlaces& places, Explanation* explanation) {
   const Stopwatch watch;
@@ -130,46 +169,30 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   const PoseQuery query{as_seen.frame, seems_unfamiliar ? find_light(context, as_seen, modes, forest.view(), upright) : as_seen.image};
   estimator_.prepare(context, query);
 
-  std::vector<Attempt> attempts;
-  float confidence = 0.0F;
-  const auto attempt = [&](const PlaceVote& vote) {
-    Place& place = places[vote.place];
-    const PlaceView view{place.reservoirs.view(), place.modes.view(), Span<const ReservoirPoint>(place.latest)};
-    std::vector<PoseEstimate> estimates = estimates_of(estimator_.estimate(context, query, view, forest.view(vote.roll)), place);
-    if (estimates.empty()) return;
-    if (attempts.empty() || estimates.front().confidence > confidence) {
-      confidence = estimates.front().confidence;
-      if (explanation != nullptr) *explanation = explain(estimator_, estimates, place.origin_world);
-    }
-    attempts.push_back({vote.place, std::move(estimates)});
-  };
-
+  Attempts attempts(context, estimator_, query, places, explanation);
   const float most = most_votes(upright);
   const bool is_familiar = most >= kFewestVotes;
   const std::size_t most_places = is_familiar ? kMostPlaces : kMostUnlikely;
   int num_untried = 0;
   for (std::size_t i = 0; i < upright.size(); ++i) {
     const bool is_rival = upright[i].share >= kRivalVotes * most;
-    const bool is_likely = is_familiar && upright[i].share >= kLikelyVotes * most && confidence < sure_confidence_;
+    const bool is_likely = is_familiar && upright[i].share >= kLikelyVotes * most && attempts.confidence() < sure_confidence_;
     const bool may_try = i < most_places && is_time_left();
     if (i == 0 || (may_try && (is_rival || is_likely))) {
-      attempt(upright[i]);
+      attempts.make(upright[i], forest);
     } else if (is_rival) {
       ++num_untried;
     }
   }
-
-  std::vector<ForestView> rolled;
-  for (int roll = 1; roll < forest.num_rolls(); ++roll) rolled.push_back(forest.view(roll));
-  if (confidence < sure_confidence_ && is_time_left()) {
-    const std::vector<PlaceVote> votes = votes_.count(context, query, modes, rolled, 1, kMostVoters);
+  if (attempts.confidence() < sure_confidence_ && is_time_left()) {
+    const std::vector<PlaceVote> votes = vote_rolled(context, query, modes, forest);
     const std::size_t most_rolled = most_votes(votes) >= kFewestVotes ? kMostRolledViews : 1;
     for (std::size_t i = 0; i < votes.size() && i < most_rolled; ++i) {
-      if (votes[i].share < std::max(kFewestRolledVotes, most) || confidence >= sure_confidence_ || !is_time_left()) break;
-      attempt(votes[i]);
+      if (votes[i].share < std::max(kFewestRolledVotes, most) || attempts.confidence() >= sure_confidence_ || !is_time_left()) break;
+      attempts.make(votes[i], forest);
     }
   }
-  return combine(std::move(attempts), num_untried, num_candidates_);
+  return combine(attempts.take(), num_untried, num_candidates_);
 }
 
 }  // namespace foothold

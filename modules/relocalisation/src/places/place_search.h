@@ -35,6 +35,10 @@ class PlaceSearch {
   const FeatureImage& find_light(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
                                  const ForestView& forest, std::vector<PlaceVote>& votes);
 
+  /// Votes for rolled cameras.
+  std::vector<PlaceVote> vote_rolled(const Context& context, const PoseQuery& query, const std::vector<LeafModesView>& places,
+                                     const DeviceForest& forest);
+
   float sure_confidence_;
   double max_ms_;  ///< 0 for no limit
   std::size_t num_candidates_;
