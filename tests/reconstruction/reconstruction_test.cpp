@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "foothold/relocalisation/keyframe_relocaliser.h"
-#include "foothold/synthetic/synthetic_sequence.h"
+#include "reconstruction/small_kitchen.h"
 #include "support/catch.h"
 #include "support/error_message.h"
 #include "support/logged_warnings.h"
@@ -20,55 +20,6 @@ using namespace test;
 using Catch::Matchers::Contains;
 
 constexpr float kFound_m = 0.05F;
-
-Context two_threads() {
-  ContextOptions options;
-  options.num_threads = 2;
-  return Context(options);
-}
-
-ReconstructionSettings small_settings() {
-  ReconstructionSettings settings;
-  settings.fusion.volume.voxel_size_m = 0.02F;
-  settings.fusion.volume.truncation_m = 0.08F;
-  settings.forest.reservoirs.capacity = 64;
-  return settings;
-}
-
-Forest small_forest(std::uint64_t seed = 42) {
-  RandomForestSettings settings;
-  settings.depth = 9;
-  settings.seed = seed;
-  return make_random_forest(settings);
-}
-
-/// A walk through a small kitchen, rendered once.
-const std::vector<RgbdFrame>& kitchen() {
-  static const std::vector<RgbdFrame> frames = [] {
-    const auto sequence = make_synthetic_sequence(parse_synthetic_spec("synthetic:kitchen?frames=60&width=320&height=240"), two_threads());
-    std::vector<RgbdFrame> result;
-    for (int i = 0; i < sequence->num_frames(); ++i) result.push_back(sequence->load(i));
-    return result;
-  }();
-  return frames;
-}
-
-/// The true pose of a frame in the world of a reconstruction that began with the first.
-SE3 true_pose(const RgbdFrame& frame) { return kitchen().front().world_from_camera->inverse() * *frame.world_from_camera; }
-
-void walk(Reconstruction& reconstruction, int num_frames) {
-  for (int i = 0; i < num_frames; ++i) {
-    const FusionFrameResult result = reconstruction.process(kitchen()[static_cast<std::size_t>(i)].view());
-    INFO("frame " << i);
-    REQUIRE(result.world_from_camera.has_value());
-  }
-}
-
-std::string bytes_of(const Reconstruction& reconstruction) {
-  std::ostringstream stream;
-  reconstruction.pipeline().save(stream);
-  return stream.str();
-}
 
 std::string refusal(Reconstruction& reconstruction, const std::string& path) {
   return error_of([&] { reconstruction.load(path); });

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <mutex>
 #include <thread>
 
 #include "cuda_backend.h"
@@ -16,6 +17,7 @@ namespace foothold {
 
 struct Context::State {
   ContextOptions options;
+  std::mutex log_mutex;
   oneapi::tbb::task_arena arena;
   std::unique_ptr<detail::CudaStream> cuda;
 };
@@ -43,7 +45,9 @@ void* Context::stream() const { return state_->cuda ? state_->cuda->stream() : n
 void* Context::arena() const { return &state_->arena; }
 
 void Context::log(LogLevel level, const std::string& message) const {
-  if (state_->options.log) state_->options.log(level, message);
+  if (!state_->options.log) return;
+  const std::lock_guard<std::mutex> lock(state_->log_mutex);
+  state_->options.log(level, message);
 }
 
 void Context::synchronise() const {

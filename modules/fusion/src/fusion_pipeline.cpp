@@ -129,8 +129,8 @@ void FusionPipeline::follow(const Frame& frame, bool usable, bool may_track, Fus
   if (result.relocalised || sighting.is_new_view) explained_world_from_camera_ = world_from_camera_;
   result.world_from_camera = world_from_camera_;
   if (decision.fuse) {
+    train(frame, result);  // first: it may go on beside the rest
     fuse(frame, result);
-    train(frame, result);
   }
   render(frame, result);
 }

@@ -10,7 +10,7 @@
 #include <iterator>
 #include <optional>
 
-#include "foothold/api/relocaliser_decorator.h"
+#include "foothold/api/background_relocaliser.h"
 #include "foothold/base/error.h"
 #include "map_limits.h"
 
@@ -56,13 +56,13 @@ struct FusionOnlySettings {
 
 }  // namespace
 
-/// A relocaliser that learns always, and answers while it is on.
-class SwitchedRelocaliser final : public RelocaliserDecorator {
+/// A relocaliser that learns always, beside tracking, and answers while it is on.
+class SwitchedRelocaliser final : public BackgroundRelocaliser {
  public:
-  using RelocaliserDecorator::RelocaliserDecorator;
+  using BackgroundRelocaliser::BackgroundRelocaliser;
 
   std::vector<PoseEstimate> relocalise(const Frame& frame) override {
-    return is_on ? inner().relocalise(frame) : std::vector<PoseEstimate>();
+    return is_on ? BackgroundRelocaliser::relocalise(frame) : std::vector<PoseEstimate>();
   }
 
   bool is_on = true;
@@ -76,28 +76,38 @@ void ReconstructionSettings::validate() const {
 /// What is saved, and replaced when another scene is loaded.
 struct Reconstruction::Scene {
   Scene(const Context& context, const FusionSettings& settings, std::unique_ptr<Relocaliser> the_relocaliser, Copy the_copy)
-      : copy(the_copy), relocaliser(std::move(the_relocaliser)), pipeline(context, settings, decorate()) {}
-  Scene(const Scene& other)
-      : copy(other.copy), relocaliser(other.copied_relocaliser()), pipeline(other.pipeline, decorate()), limits(other.limits) {
+      : copy(the_copy), relocaliser(std::move(the_relocaliser)), pipeline(context, settings, decorate(context)) {}
+  Scene(const Context& context, const Scene& other)
+      : copy(other.copy), relocaliser(other.copied_relocaliser()), pipeline(other.pipeline, decorate(context)), limits(other.limits) {
     if (switched.has_value()) switched->is_on = other.switched->is_on;
   }
+  Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  std::unique_ptr<Relocaliser> copied_relocaliser() const { return relocaliser == nullptr ? nullptr : copy(*relocaliser); }
-  Relocaliser* decorate() { return relocaliser == nullptr ? nullptr : &switched.emplace(*relocaliser); }
+  /// The relocaliser, or null, once it has learnt what it was given.
+  Relocaliser* taught_relocaliser() const {
+    if (switched.has_value()) switched->wait();
+    return relocaliser.get();
+  }
+  std::unique_ptr<Relocaliser> copied_relocaliser() const {
+    const Relocaliser* const taught = taught_relocaliser();
+    return taught == nullptr ? nullptr : copy(*taught);
+  }
+  Relocaliser* decorate(const Context& context) { return relocaliser == nullptr ? nullptr : &switched.emplace(context, *relocaliser); }
 
   /// The parts of a scene file, as SavedPart or LoadedPart.
   template <class Part>
   std::vector<Part> parts() {
     std::vector<Part> result;
     // Whatever a reconstruction is made with is Persistent, too.
-    if (relocaliser != nullptr) result.push_back({kRelocaliserPart, dynamic_cast<Persistent*>(relocaliser.get())});
+    Relocaliser* const taught = taught_relocaliser();
+    if (taught != nullptr) result.push_back({kRelocaliserPart, dynamic_cast<Persistent*>(taught)});
     result.push_back({kReconstructionPart, &pipeline});
     return result;
   }
 
-  Copy copy;  // null without a relocaliser
-  std::unique_ptr<Relocaliser> relocaliser;
+  Copy copy;                                    // null without a relocaliser
+  std::unique_ptr<Relocaliser> relocaliser;     // may be learning: see taught_relocaliser()
   std::optional<SwitchedRelocaliser> switched;  // around the relocaliser
   FusionPipeline pipeline;
   MapLimits limits;
@@ -123,7 +133,10 @@ Reconstruction::Reconstruction(const Context& context, const FusionSettings& set
       scene_(std::make_unique<Scene>(context, settings, std::move(relocaliser), copy)) {}
 
 Reconstruction::Reconstruction(const Reconstruction& other)
-    : context_(other.context_), uploader_(context_), description_(other.description_), scene_(std::make_unique<Scene>(*other.scene_)) {}
+    : context_(other.context_),
+      uploader_(context_),
+      description_(other.description_),
+      scene_(std::make_unique<Scene>(context_, *other.scene_)) {}
 
 Reconstruction::~Reconstruction() = default;
 Reconstruction::Reconstruction(Reconstruction&&) noexcept = default;
@@ -158,7 +171,11 @@ void Reconstruction::set_relocalises(bool on) {
 }
 
 const FusionPipeline& Reconstruction::pipeline() const { return scene_->pipeline; }
-std::size_t Reconstruction::relocaliser_bytes() const { return scene_->relocaliser == nullptr ? 0 : scene_->relocaliser->state_bytes(); }
+void Reconstruction::wait_for_learning() const { scene_->taught_relocaliser(); }
+std::size_t Reconstruction::relocaliser_bytes() const {
+  const Relocaliser* const taught = scene_->taught_relocaliser();
+  return taught == nullptr ? 0 : taught->state_bytes();
+}
 
 SceneDescription Reconstruction::describe(const std::vector<SettingText>& provenance) const {
   SceneDescription description{description_.settings, provenance};

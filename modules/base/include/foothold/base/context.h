@@ -49,7 +49,7 @@ struct ContextOptions {
   /// CUDA's default stream. If none is named, the context has a stream of its own that waits for no other: such a host then synchronises
   /// before and after each call.
   std::optional<void*> cuda_stream;
-  LogSink log;  ///< receives messages; none are told where it is empty
+  LogSink log;  ///< receives messages, one at a time, on whichever thread works; none are told where it is empty
   /// Receives the duration of every stage when given; must outlive the context. On CUDA it is the time between two marks in the stream, and
   /// a stage that lies in no other ends with waiting for the device.
   Trace* trace = nullptr;
@@ -57,9 +57,9 @@ struct ContextOptions {
 
 /// A device with its threads and stream. Cheap to copy; copies share the threads and the stream.
 ///
-/// One context serves one thread of control at a time; two contexts, and so two relocalisers, may coexist, on one CUDA device or on two.
-/// Copies of a context work in the order in which they are asked. Two contexts that were made apart do not wait for each other: what both
-/// work on, such as a frame that one uploads and the other reads, needs wait_for() between them.
+/// One context serves one thread of control at a time, and the calls of its BackgroundQueues; two contexts, and so two relocalisers, may
+/// coexist, on one CUDA device or on two. Copies of a context work in the order in which they are asked. Two contexts that were made apart
+/// do not wait for each other: what both work on, such as a frame that one uploads and the other reads, needs wait_for() between them.
 class Context {
  public:
   /// @throws InvalidSettings for a thread count or device index out of range, or a stream of another device; DeviceError if the device or

@@ -67,7 +67,7 @@ struct FusionFrameResult {
   double track_ms = 0.0;               ///< of tracking [ms]
   double relocalise_ms = 0.0;          ///< of finding and refining proposals [ms]
   double fuse_ms = 0.0;                ///< of changing the map [ms]
-  double train_ms = 0.0;               ///< of the relocaliser's learning [ms]
+  double train_ms = 0.0;               ///< of the relocaliser's learning, as far as the frame waited for it [ms]
   double render_ms = 0.0;              ///< of rendering the map [ms]
   double total_ms = 0.0;               ///< of the whole frame [ms]
 };
@@ -76,6 +76,10 @@ struct FusionFrameResult {
 /// that what several views say about where the camera may be adds up (PoseCandidates): a place that one view leaves in doubt is found once
 /// something distinctive comes into view, and one that only looks alike is not believed. When lost, the last known pose is a
 /// candidate, too: a camera that was covered for a moment is found again even without a relocaliser.
+///
+/// In a frame that is fused, the relocaliser is given the frame once its pose is known; then the map is changed and rendered for the next.
+/// A BackgroundRelocaliser takes a copy of the frame and learns it beside all that, and beside the tracking of the next frame: it is waited
+/// for when it is given another frame or asked for proposals. Its host waits for it before using what it wraps. Results are the same.
 ///
 /// Copies are independent but for the relocaliser, which is the caller's.
 class FusionPipeline : public Persistent {

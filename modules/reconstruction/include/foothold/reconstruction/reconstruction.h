@@ -47,8 +47,11 @@ class OtherSceneSettings : public FileError {
 
 /// Tracks a camera, maps what it sees, and finds it again when it was lost: a FusionPipeline with the relocaliser that it teaches and asks.
 ///
+/// The relocaliser learns a frame while that frame is fused and rendered, and the next is tracked (BackgroundRelocaliser): so process() may
+/// return before it has learnt, and what learning throws is thrown by a later call. Whatever looks at the relocaliser waits for it.
+///
 /// One object serves one thread of control. Copies are independent in everything, for experiments that branch off.
-/// Determinism: a function of settings, forest and frames alone.
+/// Determinism: a function of settings, forest and frames alone, whether the relocaliser learns beside or in between.
 class Reconstruction {
  public:
   /// With a forest relocaliser. @throws InvalidSettings, DeviceError
@@ -77,6 +80,8 @@ class Reconstruction {
   /// Takes the next frame, in host memory or the context's; it is copied to the device where that has a memory of its own. Its images are
   /// free when the call returns. The context's log is warned once when the map is full, and once if most depth lies outside its range.
   FusionFrameResult process(const Frame& frame);
+  /// Returns once the relocaliser has learnt every frame that it was given. Only measurements need it. @throws What learning threw.
+  void wait_for_learning() const;
   /// Makes tracking of the next frame fail, whatever it shows: for tests and benchmarks.
   void force_loss();
   /// Forgets the scene.

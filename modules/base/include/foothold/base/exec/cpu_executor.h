@@ -130,10 +130,12 @@ class CpuExecutor {
 #ifdef FOOTHOLD_THREAD_SANITIZER
     detail::run_on_threads(num_threads_, n, grain, loop);
 #else
-    arena_.execute([&] {
+    const auto run_loop = [&] {
       oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(0, n, grain),
                                 [&](const auto& range) { loop(range.begin(), range.end()); });
-    });
+    };
+    // Isolated: a thread that waits for the others does not take up a BackgroundQueue's call meanwhile, which is much longer.
+    arena_.execute([&] { oneapi::tbb::this_task_arena::isolate(run_loop); });
 #endif
   }
 
