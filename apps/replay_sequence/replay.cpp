@@ -152,7 +152,10 @@ ReplayFrame Replayer::show(Reconstruction& reconstruction, RgbdFrame& frame, con
       step, frame.index, frame.timestamp_s, frame.world_from_camera, has_depth, {}, std::numeric_limits<double>::quiet_NaN()};
   const double cpu_before_ms = process_cpu_ms();
   result.result = reconstruction.process(frame.view());
-  if (options_.exclusive_timing) result.cpu_ms = process_cpu_ms() - cpu_before_ms;
+  if (options_.exclusive_timing) {
+    reconstruction.wait_for_learning();  // which is this frame's, too
+    result.cpu_ms = process_cpu_ms() - cpu_before_ms;
+  }
   view_.add(frame, reconstruction.pipeline(), result.result, event);
   return result;
 }

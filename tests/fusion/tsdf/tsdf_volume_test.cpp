@@ -27,7 +27,7 @@ TEST_CASE("TsdfVolume: distances at observed points are those of the scene") {
   const Scene scene;
   const Context context = make_context(1);
   const TsdfVolume volume = test::fused_arc(context, scene, 8);
-  VoxelReader reader(volume.view());
+  VoxelReader<> reader(volume.view());
   Random random = test::test_random();
   // Distance is measured along the optical axis of each camera, so it exceeds the true one by up to 1 / cos of the angle of incidence; near
   // the surface both vanish. A pixel of these images is 6 to 12 mm wide on the walls, so points on the surface may read up to a voxel, and
@@ -64,7 +64,7 @@ TEST_CASE("TsdfVolume: free space reads one, the unseen reads unobserved") {
   TsdfSettings settings;
   settings.truncation_m = 0.04F;  // less than the 5 cm from the voxel below to the wall
   const TsdfVolume volume = test::fused_arc(context, Scene{}, 4, settings);
-  VoxelReader reader(volume.view());
+  VoxelReader<> reader(volume.view());
   REQUIRE(reader.stored(0, 0, 0) == kUnobserved);        // free space without blocks
   REQUIRE(reader.stored(20, 30, 75) == kUnobserved);     // inside the sphere, deeper than the band
   REQUIRE(reader.stored(0, 0, 1000000) == kUnobserved);  // far outside

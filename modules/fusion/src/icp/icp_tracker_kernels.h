@@ -37,8 +37,8 @@ void IcpAlgorithms<Executor>::build_pyramid(const Context& context, const IcpLev
   for (int l = 1; l <= levels.coarsest; ++l) {
     const DepthLevel& fine = scratch.levels[l - 1];
     const DepthLevel& coarse = scratch.levels[l];
-    exec.for_each(coarse.depth.size(),
-                  HalveDepth{fine.depth, range, scratch.depths_m[static_cast<std::size_t>(l - 1)].data(), coarse.depth.width});
+    exec.for_each_team(static_cast<std::size_t>(coarse.depth.height),
+                       HalveDepth{fine.depth, range, scratch.depths_m[static_cast<std::size_t>(l - 1)].data(), coarse.depth.width});
   }
 }
 

@@ -11,28 +11,38 @@
 
 namespace foothold {
 
-/// Averages the depths of 2 x 2 pixels that lie on the nearest one's surface.
+/// Averages the depths of 2 x 2 pixels that lie on the nearest one's surface, for one row.
 struct HalveDepth {
   ImageView<const float> fine;
   DepthRange range;
   float* coarse;
   int coarse_width;
 
-  FOOTHOLD_HD void operator()(std::size_t i) const {
+  template <class Team>
+  FOOTHOLD_HD void operator()(const Team& team, std::size_t row) const {
+    const std::size_t fine_width = static_cast<std::size_t>(fine.width);
+    const float* const upper = fine.data + 2 * row * fine_width;
+    const float* const lower = upper + fine_width;
+    float* const halved = coarse + row * static_cast<std::size_t>(coarse_width);
+    for (int u = team.lane(); u < coarse_width; u += team.size()) {
+      halved[u] = mean_of_nearest(upper[2 * u], upper[2 * u + 1], lower[2 * u], lower[2 * u + 1]);
+    }
+  }
+
+ private:
+  FOOTHOLD_HD float mean_of_nearest(float a_m, float b_m, float c_m, float d_m) const {
     constexpr float kSameSurface = 0.03F;  // of the depth
-    const int u = static_cast<int>(i) % coarse_width * 2;
-    const int v = static_cast<int>(i) / coarse_width * 2;
-    const float depths_m[4] = {fine(u, v), fine(u + 1, v), fine(u, v + 1), fine(u + 1, v + 1)};
+    const float depths_m[4] = {a_m, b_m, c_m, d_m};
     float nearest_m = range.max_m + 1.0F;
-    for (const float depth_m : depths_m) nearest_m = depth_m >= range.min_m && depth_m < nearest_m ? depth_m : nearest_m;
+    for (const float depth_m : depths_m) nearest_m = (depth_m >= range.min_m) & (depth_m < nearest_m) ? depth_m : nearest_m;
     float sum = 0.0F;
     float count = 0.0F;
     for (const float depth_m : depths_m) {
-      const bool same = depth_m >= nearest_m && depth_m <= nearest_m * (1.0F + kSameSurface);
+      const bool same = (depth_m >= nearest_m) & (depth_m <= nearest_m * (1.0F + kSameSurface));
       sum += same ? depth_m : 0.0F;
       count += same ? 1.0F : 0.0F;
     }
-    coarse[i] = nearest_m <= range.max_m ? sum / count : 0.0F;
+    return nearest_m <= range.max_m ? sum / count : 0.0F;
   }
 };
 

@@ -55,7 +55,7 @@ class MeshExtractor {
   bool read(int x, int y, int z, Voxel& voxel) {
     const VoxelBlock* block = reader_.block_of(x, y, z);
     if (block == nullptr) return false;
-    const int i = VoxelReader::voxel_index(x, y, z);
+    const int i = VoxelReader<>::voxel_index(x, y, z);
     if (block->distance[i] == kUnobserved || block->weight[i] < min_weight_) return false;
     voxel = {static_cast<float>(block->distance[i]), {block->red[i], block->green[i], block->blue[i]}};
     return true;
@@ -131,7 +131,7 @@ class MeshExtractor {
     const int y = cell.y + (place.corner >> 1 & 1);
     const int z = cell.z + (place.corner >> 2);
     const int block = volume_.find(pack_key({x >> 3, y >> 3, z >> 3}));
-    return blocks_[static_cast<std::size_t>(block)].vertex(BlockVertices::bit_of(VoxelReader::voxel_index(x, y, z), place.axis));
+    return blocks_[static_cast<std::size_t>(block)].vertex(BlockVertices::bit_of(VoxelReader<>::voxel_index(x, y, z), place.axis));
   }
 
   void drop_unused_vertices() {
@@ -170,7 +170,7 @@ class MeshExtractor {
   }
 
   TsdfView volume_;
-  VoxelReader reader_;
+  VoxelReader<> reader_;
   int min_weight_;
   std::vector<BlockVertices> blocks_;
   Mesh mesh_;

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Foothold authors
-/// The poses that a volume is rendered from, and between which depths the rays of each tile of the image may meet a surface.
+/// The poses that a volume is rendered from, and at which depths the rays of each tile of the image may meet a surface.
 #pragma once
-
-#include <cstring>
 
 #include "foothold/base/camera.h"
 #include "foothold/base/exec/atomics.h"
 #include "foothold/base/se3.h"
+#include "raycast/depth_slices.h"
 #include "raycast/surface_regions.h"
 #include "tsdf/block_extent.h"
 #include "tsdf/tsdf_view.h"
@@ -16,17 +15,6 @@ namespace foothold {
 
 /// Pixels that share a depth range; small, so that the range is tight.
 inline constexpr int kRangeTilePx = 4;
-
-FOOTHOLD_HD inline std::int32_t float_bits(float value) {
-  std::int32_t bits = 0;
-  memcpy(&bits, &value, sizeof(bits));
-  return bits;
-}
-FOOTHOLD_HD inline float float_of_bits(std::int32_t bits) {
-  float value = 0.0F;
-  memcpy(&value, &bits, sizeof(value));
-  return value;
-}
 
 /// The camera by value for kernels, its poses, and the tiles of each of its images.
 ///
@@ -69,7 +57,7 @@ struct PlaceCamera {
 
 struct ResetRanges {
   std::int32_t* near;
-  std::int32_t* far;
+  DepthSlices* slices;
   std::size_t num_ranges;
   SurfaceRegions regions;
 
@@ -77,17 +65,17 @@ struct ResetRanges {
     if (i < std::size_t{1} << static_cast<unsigned>(regions.log2_size)) regions.blocks[i] = 0;
     if (i >= num_ranges) return;
     near[i] = 0x7f7fffff;  // the largest float
-    far[i] = 0;
+    slices[i] = {};
   }
 };
 
-/// Widens the depth range of every tile that a block with a surface may cover.
+/// Notes the depths of blocks with a surface in every tile that they may cover.
 struct ProjectBlockRange {
   TsdfView volume;
   RayCamera camera;
   const SE3* cameras_from_world;
   std::int32_t* near;
-  std::int32_t* far;
+  DepthSlices* slices;
   SurfaceRegions regions;
 
   FOOTHOLD_HD void operator()(std::size_t i) const {
@@ -98,23 +86,28 @@ struct ProjectBlockRange {
     if (item.image == 0) regions.add(block);
     const SE3 camera_from_world = cameras_from_world[item.image];
     const float side_m = volume.voxel_size_m * static_cast<float>(kOctantSide);
+    const Eigen::Vector3f block_world(static_cast<float>(2 * block.x + 1) * side_m, static_cast<float>(2 * block.y + 1) * side_m,
+                                      static_cast<float>(2 * block.z + 1) * side_m);
+    const BlockExtent whole =
+        bound_projection(camera_from_world * block_world, 2.0F * kHalfDiagonal * side_m, camera.intrinsics, camera.width, camera.height);
+    if (!whole.visible()) return;
     for (int octant = 0; octant < 8; ++octant) {
       if ((octants >> static_cast<unsigned>(octant) & 1U) == 0) continue;
       const Eigen::Vector3f centre_world((static_cast<float>(2 * block.x + (octant & 1)) + 0.5F) * side_m,
                                          (static_cast<float>(2 * block.y + (octant >> 1 & 1)) + 0.5F) * side_m,
                                          (static_cast<float>(2 * block.z + (octant >> 2)) + 0.5F) * side_m);
-      widen(bound_projection(camera_from_world * centre_world, kHalfDiagonal * side_m, camera.intrinsics, camera.width, camera.height),
-            item.image * camera.num_ranges);
+      note(bound_projection(camera_from_world * centre_world, kHalfDiagonal * side_m, camera.intrinsics, camera.width, camera.height),
+           item.image * camera.num_ranges);
     }
   }
 
-  FOOTHOLD_HD void widen(const BlockExtent& extent, int first_range) const {
+  FOOTHOLD_HD void note(const BlockExtent& extent, int first_range) const {
     if (!extent.visible()) return;
     for (int v = extent.v_min / kRangeTilePx; v <= extent.v_max / kRangeTilePx; ++v) {
       for (int u = extent.u_min / kRangeTilePx; u <= extent.u_max / kRangeTilePx; ++u) {
         const int tile = first_range + v * camera.num_range_columns + u;
         atomic_lower(near + tile, float_bits(extent.z_near));
-        atomic_raise(far + tile, float_bits(extent.z_far));
+        slices[tile].add(extent.z_near, extent.z_far);
       }
     }
   }

@@ -5,6 +5,7 @@
 
 #include <cfloat>
 
+#include "raycast/depth_slices.h"
 #include "raycast/surface_regions.h"
 #include "tsdf/tsdf_view.h"
 
@@ -42,6 +43,8 @@ struct Ray {
 };
 
 /// Follows one ray at a time to the first fall of the signed distance through zero.
+/// @tparam kNumRemembered  Of VoxelReader.
+template <int kNumRemembered>
 class RayMarcher {
  public:
   FOOTHOLD_HD RayMarcher(const TsdfView& volume, const SurfaceRegions& regions)
@@ -51,10 +54,12 @@ class RayMarcher {
         near_limit_(kInterpolationBand * volume.voxel_size_m / volume.truncation_m * kStoredOne) {}
 
   /// The depth of the surface [m], or 0.
-  FOOTHOLD_HD float march(const Ray& ray, float near, float far) {
+  /// @param near    where the ray begins
+  /// @param slices  depths at which there may be a surface
+  FOOTHOLD_HD float march(const Ray& ray, float near, const DepthSlices& slices) {
     const float voxel = volume_.voxel_size_m * ray.depth_per_metre;
     const float to_depth = volume_.truncation_m * kStepFraction * ray.depth_per_metre;
-    const float end = far < kRayLength * voxel ? far : kRayLength * voxel;
+    const float end = kRayLength * voxel;
     float depth = near;
     bool outside = false;  // whether the last sample was in free space
     float outside_depth = 0.0F;
@@ -66,7 +71,7 @@ class RayMarcher {
       if (!enter_octant(x, y, z)) {
         outside = false;
         const float exit = ray.exit_depth(octant_, log2_empty_octants_);
-        depth = (exit > depth ? exit : depth) + kNudge * voxel;
+        depth = slices.next((exit > depth ? exit : depth) + kNudge * voxel);
         continue;
       }
       float distance = 0.0F;
@@ -91,7 +96,7 @@ class RayMarcher {
     return 0.0F;
   }
 
-  FOOTHOLD_HD VoxelReader& reader() { return reader_; }
+  FOOTHOLD_HD VoxelReader<kNumRemembered>& reader() { return reader_; }
 
  private:
   /// Part of the distance that a ray advances at once: below 1, because distances were measured along other rays (T: fusion_benchmark).
@@ -117,13 +122,8 @@ class RayMarcher {
     log2_empty_octants_ = 1;
     if ((blocks_with_surface_ & SurfaceRegions::bit_of(block)) == 0) return false;
     log2_empty_octants_ = 0;
-    const std::uint64_t key = pack_key(block);
-    if (key != key_) {
-      key_ = key;
-      const int index = volume_.find(key);
-      surface_octants_ = index >= 0 ? volume_.surface_octants[index] : 0U;
-    }
-    has_surface_ = (surface_octants_ >> static_cast<unsigned>((octant.z & 1) << 2 | (octant.y & 1) << 1 | (octant.x & 1)) & 1U) != 0;
+    const unsigned surface_octants = reader_.find(block).surface_octants;
+    has_surface_ = (surface_octants >> static_cast<unsigned>((octant.z & 1) << 2 | (octant.y & 1) << 1 | (octant.x & 1)) & 1U) != 0;
     return has_surface_;
   }
 
@@ -162,14 +162,12 @@ class RayMarcher {
 
   TsdfView volume_;
   SurfaceRegions regions_;
-  VoxelReader reader_;
+  VoxelReader<kNumRemembered> reader_;
   float near_limit_;
   BlockCoordinates octant_{INT32_MAX, 0, 0};
   int log2_empty_octants_ = 0;  ///< side of the cube around octant_ that has no surface, if octant_ has none
   std::uint64_t region_ = kNoKey;
   std::uint64_t blocks_with_surface_ = 0;
-  std::uint64_t key_ = kNoKey;
-  unsigned surface_octants_ = 0;
   bool has_surface_ = false;
 };
 

@@ -14,12 +14,12 @@ namespace foothold {
 
 struct Raycaster::Scratch {
   explicit Scratch(const Memory& memory)
-      : pose(memory), cameras_from_world(memory), range_near(memory), range_far(memory), regions(memory), depths_m(memory) {}
+      : pose(memory), cameras_from_world(memory), range_near(memory), slices(memory), regions(memory), depths_m(memory) {}
 
   Array<SE3> pose;  ///< of a single rendering
   Array<SE3> cameras_from_world;
   Array<std::int32_t> range_near;  ///< depth [m] as the bits of a positive float, whose order is that of integers
-  Array<std::int32_t> range_far;
+  Array<DepthSlices> slices;
   Array<std::uint64_t> regions;  ///< of SurfaceRegions
   Array<float> depths_m;
 };
@@ -39,12 +39,14 @@ inline constexpr int kRayTileWidth = 16;
 inline constexpr int kRayTileHeight = 8;
 
 /// Renders one tile of an image.
+/// @tparam kNumRemembered  Of VoxelReader.
+template <int kNumRemembered>
 struct RenderTile {
   TsdfView volume;
   SurfaceRegions regions;
   RayCamera camera;
   const std::int32_t* near;
-  const std::int32_t* far;
+  const DepthSlices* slices;
   float* depths_m;
   Rgb8* colours;  ///< nullptr if not wanted
 
@@ -53,7 +55,7 @@ struct RenderTile {
     const ImageItem item(tile, camera.num_tiles);
     const int u0 = item.index % camera.num_tile_columns * kRayTileWidth;
     const int v0 = item.index / camera.num_tile_columns * kRayTileHeight;
-    RayMarcher marcher(volume, regions);
+    RayMarcher<kNumRemembered> marcher(volume, regions);
     for (int i = team.lane(); i < kRayTileWidth * kRayTileHeight; i += team.size()) {
       const int u = u0 + i % kRayTileWidth;
       const int v = v0 + i / kRayTileWidth;
@@ -61,7 +63,7 @@ struct RenderTile {
       const Ray ray = ray_of(camera.world_from_cameras[item.image], u, v);  // read again: registers are for the march
       const int pixel = item.image * camera.num_pixels() + v * camera.width + u;
       const int range = item.image * camera.num_ranges + v / kRangeTilePx * camera.num_range_columns + u / kRangeTilePx;
-      const float depth_m = ray.is_near_map() ? marcher.march(ray, float_of_bits(near[range]), float_of_bits(far[range])) : 0.0F;
+      const float depth_m = ray.is_near_map() ? marcher.march(ray, float_of_bits(near[range]), slices[range]) : 0.0F;
       depths_m[pixel] = depth_m;
       if (colours != nullptr) colours[pixel] = depth_m > 0.0F ? colour_at(marcher.reader(), ray, depth_m) : Rgb8{};
     }
@@ -83,7 +85,7 @@ struct RenderTile {
   }
 
   /// The trilinear average of the coloured voxels around a point; black if there are none.
-  FOOTHOLD_HD Rgb8 colour_at(VoxelReader& reader, const Ray& ray, float depth_m) const {
+  FOOTHOLD_HD Rgb8 colour_at(VoxelReader<kNumRemembered>& reader, const Ray& ray, float depth_m) const {
     float g[3];
     int base[3];
     for (int axis = 0; axis < 3; ++axis) {
@@ -93,13 +95,13 @@ struct RenderTile {
     }
     float sum[3] = {0.0F, 0.0F, 0.0F};
     float total = 0.0F;
+    typename VoxelReader<kNumRemembered>::Cell cell;
+    if constexpr (kNumRemembered == 8) reader.find_cell(base[0], base[1], base[2], cell);
     for (int i = 0; i < 8; ++i) {
-      const int x = base[0] + (i & 1);
-      const int y = base[1] + ((i >> 1) & 1);
-      const int z = base[2] + (i >> 2);
-      const VoxelBlock* block = reader.block_of(x, y, z);
+      if constexpr (kNumRemembered == 1) reader.find_corner(base[0], base[1], base[2], i, cell);
+      const VoxelBlock* const block = cell.blocks[i];
+      const int voxel = cell.voxels[i];
       if (block == nullptr) continue;
-      const int voxel = VoxelReader::voxel_index(x, y, z);
       if ((block->red[voxel] | block->green[voxel] | block->blue[voxel]) == 0) continue;
       const float weight = ((i & 1) != 0 ? g[0] : 1.0F - g[0]) * ((i & 2) != 0 ? g[1] : 1.0F - g[1]) * ((i & 4) != 0 ? g[2] : 1.0F - g[2]);
       sum[0] += weight * static_cast<float>(block->red[voxel]);
@@ -179,21 +181,22 @@ void RaycastAlgorithms<Executor>::render(const Context& context, const TsdfView&
   const std::size_t num_ranges = num_images * static_cast<std::size_t>(camera.num_ranges);
   scratch.cameras_from_world.resize(num_images);
   scratch.range_near.resize(num_ranges);
-  scratch.range_far.resize(num_ranges);
+  scratch.slices.resize(num_ranges);
   scratch.depths_m.resize(map.pixels.size());
   const int log2_regions = log2_num_regions(volume.num_blocks);
   scratch.regions.resize(std::size_t{1} << static_cast<unsigned>(log2_regions));
   SE3* const cameras_from_world = scratch.cameras_from_world.data();
   std::int32_t* const near = scratch.range_near.data();
-  std::int32_t* const far = scratch.range_far.data();
+  DepthSlices* const slices = scratch.slices.data();
   exec.for_each(num_images, PlaceCamera{world_from_cameras.data(), map.world_from_cameras.data(), cameras_from_world});
   const SurfaceRegions regions{scratch.regions.data(), log2_regions};
-  exec.for_each(std::max(num_ranges, scratch.regions.size()), ResetRanges{near, far, num_ranges, regions});
+  exec.for_each(std::max(num_ranges, scratch.regions.size()), ResetRanges{near, slices, num_ranges, regions});
   exec.for_each(num_images * static_cast<std::size_t>(volume.num_blocks),
-                ProjectBlockRange{volume, camera, cameras_from_world, near, far, regions});
-  exec.for_each_team(
-      num_images * static_cast<std::size_t>(camera.num_tiles),
-      RenderTile{volume, regions, camera, near, far, scratch.depths_m.data(), map.colours.empty() ? nullptr : map.colours.data()});
+                ProjectBlockRange{volume, camera, cameras_from_world, near, slices, regions});
+  constexpr int kNumRemembered = Executor::kVectorWidth > 1 ? 8 : 1;
+  exec.for_each_team(num_images * static_cast<std::size_t>(camera.num_tiles),
+                     RenderTile<kNumRemembered>{volume, regions, camera, near, slices, scratch.depths_m.data(),
+                                                map.colours.empty() ? nullptr : map.colours.data()});
   exec.for_each(map.pixels.size(), EstimateNormal{camera, scratch.depths_m.data(), map.pixels.data()});
 }
 

@@ -38,7 +38,9 @@ struct ClaimTable {
 /// Every so many pixels, in both directions, allocate the blocks along their ray (T: fusion_benchmark, kitchen).
 inline constexpr int kAllocationStridePx = 4;
 
-/// Claims every missing block along the truncation band of one sampled pixel.
+/// Claims every missing block along the truncation bands of one row of sampled pixels. Each lane remembers some blocks that need no search:
+/// neighbouring pixels want nearly the same.
+template <int kNumRemembered>
 struct CollectWantedBlocks {
   TsdfView volume;
   PosedDepth camera;
@@ -48,28 +50,40 @@ struct CollectWantedBlocks {
   std::int32_t* claimed_slots;
   std::uint32_t* claimed;  ///< 1 where the slot is
 
-  FOOTHOLD_HD void operator()(std::size_t sample) const {
-    const int u = static_cast<int>(sample) % num_columns * kAllocationStridePx;
-    const int v = static_cast<int>(sample) / num_columns * kAllocationStridePx;
+  template <class Team>
+  FOOTHOLD_HD void operator()(const Team& team, std::size_t row) const {
+    std::uint64_t remembered[kNumRemembered];
+    for (std::uint64_t& key : remembered) key = kNoKey;
+    for (int column = team.lane(); column < num_columns; column += team.size()) claim_band(static_cast<int>(row), column, remembered);
+  }
+
+ private:
+  FOOTHOLD_HD void claim_band(int row, int column, std::uint64_t (&remembered)[kNumRemembered]) const {
+    const int u = column * kAllocationStridePx;
+    const int v = row * kAllocationStridePx;
     const float depth_m = camera.depth(u, v);
     const bool usable = camera.range.holds(depth_m);
     const float band_step_m = 2.0F * volume.truncation_m / static_cast<float>(num_steps - 1);
-    std::uint64_t last = kNoKey;
+    const Eigen::Vector3f ray = camera.intrinsics.back_project(static_cast<float>(u), static_cast<float>(v), 1.0F);
+    const std::size_t first_slot =
+        (static_cast<std::size_t>(row) * static_cast<std::size_t>(num_columns) + static_cast<std::size_t>(column)) *
+        static_cast<std::size_t>(num_steps);
     for (int k = 0; k < num_steps; ++k) {
-      const std::size_t slot = sample * static_cast<std::size_t>(num_steps) + static_cast<std::size_t>(k);
+      const std::size_t slot = first_slot + static_cast<std::size_t>(k);
       claimed[slot] = 0;
       if (!usable) continue;
       const float z = depth_m - volume.truncation_m + static_cast<float>(k) * band_step_m;
-      const Eigen::Vector3f point_world =
-          camera.world_from_camera * camera.intrinsics.back_project(static_cast<float>(u), static_cast<float>(v), z);
-      const std::uint64_t key = key_of(point_world);
-      if (key == last || key == kNoKey) continue;
-      last = key;
+      const std::uint64_t key = key_of(camera.world_from_camera * Eigen::Vector3f(ray * z));
+      std::uint64_t& known = remembered[foothold::first_slot(key, kLog2Most) % kNumRemembered];
+      if (key == known || key == kNoKey) continue;
+      known = key;
       if (volume.find(key) >= 0) continue;
       claimed_slots[slot] = claims.claim(key);
       claimed[slot] = claimed_slots[slot] >= 0 ? 1 : 0;
     }
   }
+
+  static constexpr int kLog2Most = 16;
 
   FOOTHOLD_HD std::uint64_t key_of(const Eigen::Vector3f& point_world) const {
     const float scale = 1.0F / (volume.voxel_size_m * static_cast<float>(kBlockSide));

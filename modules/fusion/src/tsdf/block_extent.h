@@ -26,19 +26,11 @@ struct BlockExtent {
 
 /// Bounds the projection of a cube given by its centre in the camera frame and half its diagonal.
 FOOTHOLD_HD inline BlockExtent bound_projection(const Eigen::Vector3f& centre, float radius, const Intrinsics& k, int width, int height) {
-  constexpr float kNearestM = 0.05F;  // nearer cubes may cover any pixel
+  constexpr float kNearestM = 0.05F;  // nothing nearer is seen
   BlockExtent extent;
-  extent.z_near = centre.z() - radius;
+  extent.z_near = centre.z() - radius > kNearestM ? centre.z() - radius : kNearestM;
   extent.z_far = centre.z() + radius;
   if (extent.z_far < kNearestM) return extent;
-  if (extent.z_near < kNearestM) {
-    extent.z_near = kNearestM;
-    extent.u_min = 0;
-    extent.v_min = 0;
-    extent.u_max = width - 1;
-    extent.v_max = height - 1;
-    return extent;
-  }
   const float inverse_near = 1.0F / extent.z_near;
   const float inverse_far = 1.0F / extent.z_far;
   const float x0 = centre.x() - radius;

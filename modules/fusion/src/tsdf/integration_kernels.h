@@ -5,6 +5,7 @@
 
 #include <cfloat>
 
+#include "foothold/base/exec/prefetch.h"
 #include "tsdf/allocation_kernels.h"
 #include "tsdf/block_extent.h"
 
@@ -23,14 +24,16 @@ struct FindTileDepths {
     const int v0 = static_cast<int>(tile) / num_columns * kDepthTilePx;
     const int u1 = u0 + kDepthTilePx < camera.depth.width ? u0 + kDepthTilePx : camera.depth.width;
     const int v1 = v0 + kDepthTilePx < camera.depth.height ? v0 + kDepthTilePx : camera.depth.height;
-    float max_depth_m = 0.0F;
+    float columns[kDepthTilePx] = {};  // apart, so that the compiler takes several at once
     for (int v = v0; v < v1; ++v) {
-      for (int u = u0; u < u1; ++u) {
-        const float depth_m = camera.depth(u, v);
-        const float candidate_m = camera.range.holds(depth_m) ? depth_m : 0.0F;
-        max_depth_m = candidate_m > max_depth_m ? candidate_m : max_depth_m;
+      const float* const row = camera.depth.data + static_cast<std::size_t>(v) * static_cast<std::size_t>(camera.depth.width) + u0;
+      for (int i = 0; i < u1 - u0; ++i) {
+        const float candidate_m = (row[i] >= camera.range.min_m) & (row[i] <= camera.range.max_m) ? row[i] : 0.0F;
+        columns[i] = candidate_m > columns[i] ? candidate_m : columns[i];
       }
     }
+    float max_depth_m = 0.0F;
+    for (const float depth_m : columns) max_depth_m = depth_m > max_depth_m ? depth_m : max_depth_m;
     max_depths_m[tile] = max_depth_m;
   }
 };
@@ -61,13 +64,18 @@ struct IntegrateBlock {
     if (!in_view(corner_world, side_m)) return;
 
     VoxelBlock& block = volume.block(static_cast<int>(index));
+    if constexpr (kWidth > 1) {
+      for (int voxel = 0; voxel < kBlockVoxels; voxel += 32) prefetch(block.distance + voxel);
+      for (int voxel = 0; voxel < kBlockVoxels; voxel += 64) prefetch(block.weight + voxel);
+    }
     const Eigen::Vector3f corner = camera_from_world * corner_world;
     const Eigen::Matrix3f step = camera_from_world.rotation * volume.voxel_size_m;
     int num_near_surface[8] = {};
     for (int first = team.lane() * kWidth; first < kBlockVoxels; first += team.size() * kWidth) {
       Voxels voxels;
-      observe(first, corner, step, voxels);
-      if (update(block, first, voxels)) colour_voxels(block, first, voxels, corner_world);
+      const bool any_seen = observe(first, corner, step, voxels);
+      for (int i = 0; i < kWidth; ++i) voxels.distance[i] = static_cast<float>(block.distance[first + i]);
+      if (any_seen && update(block, first, voxels)) colour_voxels(block, first, voxels, corner_world);
       count_near_surface(first, voxels, num_near_surface);
     }
     team.sum_all(num_near_surface);
@@ -78,6 +86,8 @@ struct IntegrateBlock {
   }
 
  private:
+  /// Voxels of one row that are processed side by side.
+  static constexpr int kRow = kWidth < kBlockSide ? kWidth : kBlockSide;
   /// Voxels this near to the surface take part in its colour [voxels].
   static constexpr float kColourBand = 1.8F;
   /// Voxels this near to the surface may belong to a cell that it passes through [voxels]: the diagonal of a cell, and as much again for
@@ -87,7 +97,7 @@ struct IntegrateBlock {
   struct Voxels {
     float
         ahead[kWidth];  ///< distance from the voxel to the surface along the optical axis, as stored; -FLT_MAX where the frame says nothing
-    float distance[kWidth];       ///< the new value
+    float distance[kWidth];       ///< the old value, then the new one
     std::int32_t colour[kWidth];  ///< 1 where the voxel takes part in colour
   };
 
@@ -105,8 +115,8 @@ struct IntegrateBlock {
     return false;
   }
 
-  /// Projects voxels into the depth image.
-  FOOTHOLD_HD void observe(int first, const Eigen::Vector3f& corner, const Eigen::Matrix3f& step, Voxels& voxels) const {
+  /// Projects voxels into the depth image; returns whether the frame says anything of them.
+  FOOTHOLD_HD bool observe(int first, const Eigen::Vector3f& corner, const Eigen::Matrix3f& step, Voxels& voxels) const {
     const float width = static_cast<float>(camera.depth.width);
     const float height = static_cast<float>(camera.depth.height);
     const float fx = camera.intrinsics.fx;
@@ -120,25 +130,30 @@ struct IntegrateBlock {
     const float max_depth_m = camera.range.max_m;
     std::int32_t pixels[kWidth];
     float z_m[kWidth];
-    for (int i = 0; i < kWidth; ++i) {
-      const float a = static_cast<float>((first + i) & 7);
-      const float b = static_cast<float>(((first + i) >> 3) & 7);
-      const float c = static_cast<float>((first + i) >> 6);
-      const float x = corner[0] + a * step(0, 0) + b * step(0, 1) + c * step(0, 2);
-      const float y = corner[1] + a * step(1, 0) + b * step(1, 1) + c * step(1, 2);
-      const float z = corner[2] + a * step(2, 0) + b * step(2, 1) + c * step(2, 2);
-      const float inverse = 1.0F / z;
-      const float u = fx * x * inverse + cx;
-      const float v = fy * y * inverse + cy;
-      const bool inside = (z > 0.0F) & (u >= 0.0F) & (v >= 0.0F) & (u < width) & (v < height);
-      pixels[i] = static_cast<std::int32_t>(inside ? v : 0.0F) * columns + static_cast<std::int32_t>(inside ? u : 0.0F);
-      z_m[i] = inside ? z : FLT_MAX;
+    for (int row = 0; row < kWidth; row += kRow) {
+      const float b = static_cast<float>(((first + row) >> 3) & 7);
+      const float c = static_cast<float>((first + row) >> 6);
+      for (int i = 0; i < kRow; ++i) {
+        const float a = static_cast<float>((first + i) & 7);
+        const float x = corner[0] + a * step(0, 0) + b * step(0, 1) + c * step(0, 2);
+        const float y = corner[1] + a * step(1, 0) + b * step(1, 1) + c * step(1, 2);
+        const float z = corner[2] + a * step(2, 0) + b * step(2, 1) + c * step(2, 2);
+        const float inverse = 1.0F / z;
+        const float u = fx * x * inverse + cx;
+        const float v = fy * y * inverse + cy;
+        const bool inside = (z > 0.0F) & (u >= 0.0F) & (v >= 0.0F) & (u < width) & (v < height);
+        pixels[row + i] = static_cast<std::int32_t>(inside ? v : 0.0F) * columns + static_cast<std::int32_t>(inside ? u : 0.0F);
+        z_m[row + i] = inside ? z : FLT_MAX;
+      }
     }
+    std::int32_t num_seen = 0;
     for (int i = 0; i < kWidth; ++i) {
       const float depth_m = depth[pixels[i]];
       const bool usable = (depth_m >= min_depth_m) & (depth_m <= max_depth_m) & (z_m[i] < FLT_MAX);
       voxels.ahead[i] = usable ? (depth_m - z_m[i]) * to_stored : -FLT_MAX;
+      num_seen += voxels.ahead[i] >= -kStoredOne ? 1 : 0;
     }
+    return num_seen > 0;
   }
 
   /// Averages the observations in; returns whether any voxel takes part in colour.
@@ -146,10 +161,8 @@ struct IntegrateBlock {
     const float colour_limit = kColourBand * volume.voxel_size_m * kStoredOne / volume.truncation_m;
     std::int16_t* const distances = block.distance + first;
     std::uint8_t* const weights = block.weight + first;
-    float old[kWidth];
     float weight[kWidth];
     std::int32_t raised[kWidth];
-    for (int i = 0; i < kWidth; ++i) old[i] = static_cast<float>(distances[i]);
     for (int i = 0; i < kWidth; ++i) weight[i] = static_cast<float>(weights[i]);
     const float heaviest = static_cast<float>(max_weight);
     std::int32_t num_coloured = 0;
@@ -157,9 +170,10 @@ struct IntegrateBlock {
       const float ahead = voxels.ahead[i];
       const bool seen = ahead >= -kStoredOne;
       const float observed = ahead < kStoredOne ? ahead : kStoredOne;
-      const float average = (old[i] * weight[i] + observed) / (weight[i] + 1.0F);
+      const float old = voxels.distance[i];
+      const float average = (old * weight[i] + observed) / (weight[i] + 1.0F);
       const float more = weight[i] + 1.0F < heaviest ? weight[i] + 1.0F : heaviest;
-      voxels.distance[i] = seen ? average : old[i];
+      voxels.distance[i] = seen ? average : old;
       raised[i] = static_cast<std::int32_t>(seen ? more : weight[i]);
       voxels.colour[i] = (ahead >= -colour_limit) & (ahead <= colour_limit) ? 1 : 0;
       num_coloured += voxels.colour[i];
@@ -194,31 +208,60 @@ struct IntegrateBlock {
   }
 
   FOOTHOLD_HD void colour_voxels(VoxelBlock& block, int first, const Voxels& voxels, const Eigen::Vector3f& corner_world) const {
-    const Eigen::Vector3f corner = colour_from_world * corner_world;
-    const Eigen::Matrix3f step = colour_from_world.rotation * volume.voxel_size_m;
+    std::int32_t pixels[kWidth];
+    prefetch(block.red + first);
+    prefetch(block.green + first);
+    prefetch(block.blue + first);
+    find_colours(first, voxels, corner_world, pixels);
     for (int i = 0; i < kWidth; ++i) {
-      if (voxels.colour[i] == 0) continue;
+      if (pixels[i] >= 0) prefetch(colour.data + static_cast<std::size_t>(pixels[i]) * static_cast<std::size_t>(colour.bytes_per_pixel));
+    }
+    for (int i = 0; i < kWidth; ++i) {
+      if (pixels[i] < 0) continue;
       const int voxel = first + i;
-      const Eigen::Vector3f point = corner + step * Eigen::Vector3f(static_cast<float>(voxel & 7), static_cast<float>((voxel >> 3) & 7),
-                                                                    static_cast<float>(voxel >> 6));
-      if (point.z() <= 0.0F) continue;
-      int u = 0;
-      int v = 0;
-      if (!nearest_pixel(colour_intrinsics.project(point), colour.width, colour.height, u, v)) continue;
-      const Rgb8 seen = colour(u, v);
+      const std::uint8_t* const seen = colour.data + static_cast<std::size_t>(pixels[i]) * static_cast<std::size_t>(colour.bytes_per_pixel);
       // Eight bits hold no small increments: a longer memory would freeze the first colours.
       const bool coloured = (block.red[voxel] | block.green[voxel] | block.blue[voxel]) != 0;
       const int before = coloured ? block.weight[voxel] - 1 : 0;
       const int weight = before < kMaxColourWeight ? before : kMaxColourWeight;
-      block.red[voxel] = average(block.red[voxel], seen.r, weight);
-      block.green[voxel] = average(block.green[voxel], seen.g, weight);
-      block.blue[voxel] = average(block.blue[voxel], seen.b, weight);
+      const float inverse = 1.0F / static_cast<float>(weight + 1);
+      block.red[voxel] = average(block.red[voxel], seen[0], weight, inverse);
+      block.green[voxel] = average(block.green[voxel], seen[1], weight, inverse);
+      block.blue[voxel] = average(block.blue[voxel], seen[2], weight, inverse);
+    }
+  }
+
+  /// Projects voxels that take part in colour into the colour image. @param pixels  Output; -1 where there is none.
+  FOOTHOLD_HD void find_colours(int first, const Voxels& voxels, const Eigen::Vector3f& corner_world,
+                                std::int32_t (&pixels)[kWidth]) const {
+    const Eigen::Vector3f corner = colour_from_world * corner_world;
+    const Eigen::Matrix3f step = colour_from_world.rotation * volume.voxel_size_m;
+    const Intrinsics k = colour_intrinsics;
+    const int columns = colour.width;
+    const float width = static_cast<float>(colour.width);
+    const float height = static_cast<float>(colour.height);
+    for (int row = 0; row < kWidth; row += kRow) {
+      const float b = static_cast<float>(((first + row) >> 3) & 7);
+      const float c = static_cast<float>((first + row) >> 6);
+      for (int i = 0; i < kRow; ++i) {
+        const float a = static_cast<float>((first + i) & 7);
+        const float x = corner[0] + (step(0, 0) * a + (step(0, 1) * b + step(0, 2) * c));
+        const float y = corner[1] + (step(1, 0) * a + (step(1, 1) * b + step(1, 2) * c));
+        const float z = corner[2] + (step(2, 0) * a + (step(2, 1) * b + step(2, 2) * c));
+        const float u = k.fx * x / z + k.cx + 0.5F;
+        const float v = k.fy * y / z + k.cy + 0.5F;
+        const bool inside = (voxels.colour[row + i] != 0) & (z > 0.0F) & (u >= 0.0F) & (v >= 0.0F) & (u < width) & (v < height);
+        const std::int32_t pixel = static_cast<std::int32_t>(inside ? v : 0.0F) * columns + static_cast<std::int32_t>(inside ? u : 0.0F);
+        pixels[row + i] = inside ? pixel : -1;
+      }
     }
   }
 
   static constexpr int kMaxColourWeight = 7;
-  FOOTHOLD_HD static std::uint8_t average(std::uint8_t old, std::uint8_t seen, int weight) {
-    return static_cast<std::uint8_t>((old * weight + seen + (weight + 1) / 2) / (weight + 1));
+  /// (old * weight + seen) / (weight + 1), rounded. @param inverse  1 / (weight + 1): exact enough for numbers this small.
+  FOOTHOLD_HD static std::uint8_t average(int old, int seen, int weight, float inverse) {
+    const int sum = old * weight + seen + (weight + 1) / 2;
+    return static_cast<std::uint8_t>((static_cast<float>(sum) + 0.5F) * inverse);
   }
 };
 

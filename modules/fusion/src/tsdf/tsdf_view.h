@@ -90,21 +90,34 @@ struct TsdfView {
   }
 };
 
-/// Looks voxels up, remembering the last block: neighbours are nearly always in the same one.
+/// A block that was looked up.
+struct FoundBlock {
+  std::uint64_t key = kNoKey;
+  const VoxelBlock* block = nullptr;  ///< nullptr if there is none
+  unsigned surface_octants = 0;
+};
+
+/// Looks voxels up, remembering the last block: neighbours are nearly always in the same one. A reader that remembers eight finds all of
+/// the blocks that meet at a corner, each in its own place.
+template <int kNumRemembered = 1>
 class VoxelReader {
+  static_assert(kNumRemembered == 1 || kNumRemembered == 8);
+
  public:
   FOOTHOLD_HD explicit VoxelReader(const TsdfView& view) : view_(view) {}
 
-  /// The block holding voxel (x, y, z), or nullptr.
-  FOOTHOLD_HD const VoxelBlock* block_of(int x, int y, int z) {
-    const std::uint64_t key = pack_key({x >> 3, y >> 3, z >> 3});
-    if (key != last_key_) {
-      last_key_ = key;
+  /// The block with these coordinates.
+  FOOTHOLD_HD const FoundBlock& find(const BlockCoordinates& coordinates) { return find(pack_key(coordinates)); }
+  FOOTHOLD_HD const FoundBlock& find(std::uint64_t key) {
+    FoundBlock& found = found_[kNumRemembered == 1 ? 0 : (key & 1) | (key >> kKeyBits & 1) << 1 | (key >> (2 * kKeyBits) & 1) << 2];
+    if (key != found.key) {
       const int index = view_.find(key);
-      last_block_ = index >= 0 ? &view_.block(index) : nullptr;
+      found = index >= 0 ? FoundBlock{key, &view_.block(index), view_.surface_octants[index]} : FoundBlock{key, nullptr, 0};
     }
-    return last_block_;
+    return found;
   }
+  /// The block holding voxel (x, y, z), or nullptr.
+  FOOTHOLD_HD const VoxelBlock* block_of(int x, int y, int z) { return find({x >> 3, y >> 3, z >> 3}).block; }
   FOOTHOLD_HD static int voxel_index(int x, int y, int z) { return (((z & 7) << 3 | (y & 7)) << 3) | (x & 7); }
 
   /// The stored distance of a voxel, or kUnobserved.
@@ -124,19 +137,51 @@ class VoxelReader {
     const float fx = gx - static_cast<float>(x);
     const float fy = gy - static_cast<float>(y);
     const float fz = gz - static_cast<float>(z);
-    const float a = mix(corner[0], corner[1], fx);
-    const float b = mix(corner[2], corner[3], fx);
-    const float c = mix(corner[4], corner[5], fx);
-    const float d = mix(corner[6], corner[7], fx);
-    const float near_z = a + (b - a) * fy;
-    const float far_z = c + (d - c) * fy;
+    float along_x[4];
+    for (int i = 0; i < 4; ++i) along_x[i] = mix(corner[2 * i], corner[2 * i + 1], fx);
+    const float near_z = along_x[0] + (along_x[1] - along_x[0]) * fy;
+    const float far_z = along_x[2] + (along_x[3] - along_x[2]) * fy;
     distance = (near_z + (far_z - near_z) * fz) * (1.0F / kStoredOne);
     return true;
+  }
+
+  /// Where the eight voxels of a cell lie, x fastest.
+  struct Cell {
+    const VoxelBlock* blocks[8];  ///< nullptr where there is none
+    int voxels[8];
+  };
+  /// Finds corner i of the cell at (x, y, z).
+  FOOTHOLD_HD void find_corner(int x, int y, int z, int i, Cell& cell) {
+    const int corner_x = x + (i & 1);
+    const int corner_y = y + ((i >> 1) & 1);
+    const int corner_z = z + (i >> 2);
+    cell.blocks[i] = block_of(corner_x, corner_y, corner_z);
+    cell.voxels[i] = voxel_index(corner_x, corner_y, corner_z);
+  }
+  /// Finds all corners of the cell at (x, y, z), each block once. For readers that remember eight: others would forget one over the next.
+  FOOTHOLD_HD void find_cell(int x, int y, int z, Cell& cell) {
+    const std::uint64_t key = pack_key({x >> 3, y >> 3, z >> 3});
+    const unsigned reach = ((x & 7) == 7 ? 1U : 0U) | ((y & 7) == 7 ? 2U : 0U) | ((z & 7) == 7 ? 4U : 0U);  // into neighbouring blocks
+    for (unsigned i = 0; i < 8; ++i) {
+      const std::uint64_t step = (i & 1U) | std::uint64_t{i >> 1U & 1U} << kKeyBits | std::uint64_t{i >> 2U} << (2 * kKeyBits);
+      cell.blocks[i] = (i & ~reach) != 0 ? cell.blocks[i & reach] : find(key + step).block;
+      cell.voxels[i] = voxel_index(x + static_cast<int>(i & 1U), y + static_cast<int>(i >> 1U & 1U), z + static_cast<int>(i >> 2U));
+    }
   }
 
   /// Reads the eight voxels of the cell at (x, y, z), x fastest; false if one was never observed.
   FOOTHOLD_HD bool read_cell(int x, int y, int z, std::int16_t (&corner)[8]) {
     bool observed = true;
+    if constexpr (kNumRemembered == 8) {
+      Cell cell;
+      find_cell(x, y, z, cell);
+      for (int i = 0; i < 8; ++i) {
+        if (cell.blocks[i] == nullptr) return false;
+        corner[i] = cell.blocks[i]->distance[cell.voxels[i]];
+        observed &= corner[i] != kUnobserved;
+      }
+      return observed;
+    }
     if ((x & 7) != 7 && (y & 7) != 7 && (z & 7) != 7) {
       const VoxelBlock* block = block_of(x, y, z);
       if (block == nullptr) return false;
@@ -176,8 +221,7 @@ class VoxelReader {
   }
 
   TsdfView view_;
-  std::uint64_t last_key_ = kNoKey;
-  const VoxelBlock* last_block_ = nullptr;
+  FoundBlock found_[kNumRemembered];
 };
 
 }  // namespace foothold

@@ -50,8 +50,10 @@ int TsdfAlgorithms<Executor>::find_new_blocks(const Context& context, const Tsdf
   scratch.new_keys.resize(num_candidates);
   reserve_claims(exec, num_candidates, scratch);
   const ClaimTable claims{scratch.claims.data(), scratch.log2_claims};
-  exec.for_each(num_samples,
-                CollectWantedBlocks{volume, camera, num_columns, num_steps, claims, scratch.claimed_slots.data(), scratch.claimed.data()});
+  constexpr int kNumRemembered = Executor::kVectorWidth > 1 ? 64 : 1;
+  exec.for_each_team(static_cast<std::size_t>(num_rows),
+                     CollectWantedBlocks<kNumRemembered>{volume, camera, num_columns, num_steps, claims, scratch.claimed_slots.data(),
+                                                         scratch.claimed.data()});
   exec.exclusive_scan(Span<const std::uint32_t>(scratch.claimed.data(), num_candidates),
                       Span<std::uint32_t>(scratch.offsets.data(), num_candidates + 1));
   const std::size_t num_wanted = scratch.offsets.read(context, num_candidates);

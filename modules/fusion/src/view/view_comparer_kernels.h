@@ -42,6 +42,16 @@ struct SampleFrame {
     if (!nearest_pixel(colour_intrinsics.project(point), colour.width, colour.height, cu, cv)) return -1.0F;
     // The mean over the pixels that this one stands for: renderings are smooth, and single pixels would alias.
     float sum = 0.0F;
+    const int u0 = cu - kViewStridePx / 2;
+    const int v0 = cv - kViewStridePx / 2;
+    if (u0 >= 0 && v0 >= 0 && u0 + kViewStridePx <= colour.width && v0 + kViewStridePx <= colour.height) {
+      for (int y = 0; y < kViewStridePx; ++y) {
+        float greys[kViewStridePx];
+        for (int x = 0; x < kViewStridePx; ++x) greys[x] = grey_of(colour(u0 + x, v0 + y));
+        for (const float grey : greys) sum += grey;
+      }
+      return sum / static_cast<float>(kViewStridePx * kViewStridePx);
+    }
     int count = 0;
     for (int y = cv - kViewStridePx / 2; y <= cv + (kViewStridePx - 1) / 2; ++y) {
       for (int x = cu - kViewStridePx / 2; x <= cu + (kViewStridePx - 1) / 2; ++x) {

@@ -31,6 +31,15 @@ FOOTHOLD_HD inline void atomic_add(std::uint32_t* address, std::uint32_t value) 
 #endif
 }
 
+/// Sets bits.
+FOOTHOLD_HD inline void atomic_or(std::uint64_t* address, std::uint64_t bits) {
+#if defined(__CUDA_ARCH__)
+  atomicOr(reinterpret_cast<unsigned long long*>(address), static_cast<unsigned long long>(bits));
+#else
+  if ((bits & ~__atomic_load_n(address, __ATOMIC_RELAXED)) != 0) __atomic_fetch_or(address, bits, __ATOMIC_RELAXED);
+#endif
+}
+
 /// Lowers a value to at most `value`.
 FOOTHOLD_HD inline void atomic_lower(std::int32_t* address, std::int32_t value) {
 #if defined(__CUDA_ARCH__)
@@ -38,17 +47,6 @@ FOOTHOLD_HD inline void atomic_lower(std::int32_t* address, std::int32_t value) 
 #else
   std::int32_t seen = __atomic_load_n(address, __ATOMIC_RELAXED);
   while (value < seen && !__atomic_compare_exchange_n(address, &seen, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
-  }
-#endif
-}
-
-/// Raises a value to at least `value`.
-FOOTHOLD_HD inline void atomic_raise(std::int32_t* address, std::int32_t value) {
-#if defined(__CUDA_ARCH__)
-  atomicMax(address, value);
-#else
-  std::int32_t seen = __atomic_load_n(address, __ATOMIC_RELAXED);
-  while (value > seen && !__atomic_compare_exchange_n(address, &seen, value, true, __ATOMIC_RELAXED, __ATOMIC_RELAXED)) {
   }
 #endif
 }
