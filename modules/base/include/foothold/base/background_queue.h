@@ -18,6 +18,7 @@ namespace foothold {
 /// One queue serves one thread of control. Its calls may use the context and its copies beside that thread.
 class BackgroundQueue {
  public:
+  /// A queue on the threads of a context.
   explicit BackgroundQueue(const Context& context);
   /// Waits. What a call threw is told to the context's log as a warning.
   ~BackgroundQueue();
