@@ -22,15 +22,7 @@ struct SurfaceRegions {
     return std::uint64_t{1} << static_cast<unsigned>((block.z & 3) << 4 | (block.y & 3) << 2 | (block.x & 3));
   }
   FOOTHOLD_HD std::uint64_t blocks_with_surface(std::uint64_t region) const { return blocks[first_slot(region, log2_size)]; }
-  FOOTHOLD_HD void add(const BlockCoordinates& block) const {
-    std::uint64_t* const slot = blocks + first_slot(region_of(block), log2_size);
-    std::uint64_t seen = *slot;
-    while ((seen & bit_of(block)) == 0) {
-      const std::uint64_t found = atomic_compare_exchange(slot, seen, seen | bit_of(block));
-      if (found == seen) return;
-      seen = found;
-    }
-  }
+  FOOTHOLD_HD void add(const BlockCoordinates& block) const { atomic_or(blocks + first_slot(region_of(block), log2_size), bit_of(block)); }
 };
 
 }  // namespace foothold
