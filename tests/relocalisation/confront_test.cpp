@@ -46,18 +46,23 @@ std::vector<RememberedPoint> remembered(const std::vector<FeaturePixel>& pixels)
 }
 
 /// The agreements of the six shifted poses: two along each axis.
-std::vector<float> shifted_agreements(bool with_box) {
+std::vector<float> shifted_agreements(bool with_box, float own_agreement = 1.0F) {
   const std::vector<FeaturePixel> pixels = seen(with_box);
   const std::vector<RememberedPoint> points = remembered(pixels);
   SE3 scene_from_camera;
   float energy = 0.0F;
   std::uint64_t order = 0;
+  SceneAgreement own{};
+  own.agreeing_fraction = own_agreement;
   std::vector<float> shifted(kNumShifts, -2.0F);
-  const ConfrontShifted<CpuExecutor> body{
-      {pixels.data(), kWidth, kHeight, 1.0F}, kCamera,       points.data(), static_cast<int>(points.size()),
-      {&scene_from_camera, &energy, &order},  shifted.data()};
+  const ConfrontShifted<CpuExecutor> body{{pixels.data(), kWidth, kHeight, 1.0F}, kCamera, points.data(), static_cast<int>(points.size()),
+                                          {&scene_from_camera, &energy, &order},  &own,    shifted.data()};
   for (std::size_t shift = 0; shift < shifted.size(); ++shift) body(CpuTeam{}, shift);
   return shifted;
+}
+
+TEST_CASE("ConfrontShifted: nothing is asked of a pose that is hopeless itself") {
+  CHECK(shifted_agreements(true, 0.1F) == std::vector<float>(kNumShifts, 1.0F));
 }
 
 TEST_CASE("ConfrontShifted: a plain wall explains a camera that was moved along it, and none that was moved towards it") {

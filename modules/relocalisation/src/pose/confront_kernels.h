@@ -81,6 +81,7 @@ struct ConfrontPoints {
 };
 
 /// Projects points into the frame from where the best pose is not. A view of a plain wall explains such poses, too. One team per shift.
+/// Nothing is asked of a pose that is hopeless itself: 1, as if all agreed elsewhere.
 template <class Executor>
 struct ConfrontShifted {
   FeatureImageView image;
@@ -88,11 +89,17 @@ struct ConfrontShifted {
   const RememberedPoint* points;
   int num_points;
   HypothesesView hypotheses;
+  const SceneAgreement* agreement;  ///< of the best pose
   float* shifted;
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t shift) const {
+    constexpr float kHopeless = 0.2F;
     const SE3& pose = hypotheses.pose_at(0);
     const Eigen::Matrix3f camera_from_scene = pose.rotation.transpose();
+    if (agreement->agreeing_fraction - agreement->contradicted_fraction < kHopeless) {
+      if (team.lane() == 0) shifted[shift] = 1.0F;
+      return;
+    }
     const float distance_m = shift % 2 == 0 ? kShiftM : -kShiftM;
     const Eigen::Vector3f camera_scene = pose.translation + distance_m * pose.rotation.col(static_cast<int>(shift / 2));
     float counts[3] = {};  // in view, agreeing, contradicted
@@ -141,10 +148,10 @@ struct FindRivals {
 template <class Executor>
 void confront(const Executor& executor, const PoseQuery& query, std::size_t num_candidates, Hypotheses& hypotheses, Ranking& ranking) {
   const FeatureImageView image = query.image.view();
-  executor.for_each_team(kNumShifts, ConfrontShifted<Executor>{image, query.averaged_intrinsics(), ranking.points.data(), kRankingPoints,
-                                                               hypotheses.view(), ranking.shifted.data()});
   executor.for_each_team(1, ConfrontPoints<Executor>{image, query.averaged_intrinsics(), ranking.points.data(), kRememberedPoints,
                                                      hypotheses.view(), ranking.agreement.data()});
+  executor.for_each_team(kNumShifts, ConfrontShifted<Executor>{image, query.averaged_intrinsics(), ranking.points.data(), kRankingPoints,
+                                                               hypotheses.view(), ranking.agreement.data(), ranking.shifted.data()});
   executor.for_each_team(1, FindRivals<Executor>{hypotheses.view(), ranking.evidence.data(), num_candidates, ranking.shifted.data(),
                                                  ranking.agreement.data()});
 }
