@@ -76,5 +76,13 @@ void* operator new(std::size_t num_bytes) {
   if (pointer == nullptr) throw std::bad_alloc();
   return pointer;
 }
+// The address sanitizer's own would ask for memory that free() refuses.
+void* operator new(std::size_t num_bytes, const std::nothrow_t&) noexcept {
+  try {
+    return operator new(num_bytes);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 void operator delete(void* pointer) noexcept { std::free(pointer); }
 void operator delete(void* pointer, std::size_t) noexcept { std::free(pointer); }
