@@ -20,7 +20,7 @@ RgbdFrame exposed(const RgbdFrame& frame, float exposure) {
   return result;
 }
 
-/// Of twelve views between those that were learnt, those that are found and believed.
+/// Of six views between those that were learnt, those that are found and believed.
 int num_believed(ForestRelocaliser relocaliser, float exposure) {
   int count = 0;
   for (std::size_t i = 1; i < office().size() && i < 36; i += 3) {

@@ -9,8 +9,6 @@
 
 namespace foothold {
 
-inline constexpr float kAgreementPrior = 20.0F;  ///< (T) a few points prove nothing
-
 /// Grey value of a colour, in [0, 255].
 template <class Colour>
 FOOTHOLD_HD inline float grey_level(const Colour& r, const Colour& g, const Colour& b) {

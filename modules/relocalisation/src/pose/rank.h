@@ -21,17 +21,16 @@ struct RememberedPoint {
 };
 static_assert(sizeof(RememberedPoint) == 16, "lives in device memory");
 
+inline constexpr float kAgreementPrior = 20.0F;  ///< (T) points in view added to those there are: a few prove nothing
+
 /// What remembered points say about a pose: counts of those that project to a pixel with depth.
 struct SceneEvidence {
   float num_in_view;
   float num_contradicted;  ///< the camera sees through them
   float num_alike;         ///< at the measured depth, and of the measured colour
 
-  FOOTHOLD_HD float contradicted_fraction() const { return num_contradicted / (num_in_view + kPrior); }
-  FOOTHOLD_HD float alike_fraction() const { return num_alike / (num_in_view + kPrior); }
-
- private:
-  static constexpr float kPrior = 20.0F;  ///< (T) a few points prove nothing
+  FOOTHOLD_HD float contradicted_fraction() const { return num_contradicted / (num_in_view + kAgreementPrior); }
+  FOOTHOLD_HD float alike_fraction() const { return num_alike / (num_in_view + kAgreementPrior); }
 };
 static_assert(sizeof(SceneEvidence) == 12, "lives in device memory");
 
@@ -58,7 +57,6 @@ struct Ranking {
         shifted(memory, kNumShifts),
         agreement(memory, 1) {
     evidence.clear_to_zero();
-    shifted.clear_to_zero();
     agreement.clear_to_zero();
   }
 
