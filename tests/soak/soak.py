@@ -5,7 +5,8 @@
 Two loops run side by side:
 
 - camera: reconstruct_live on the virtual camera in a rendered room, with kidnaps, a covered lens, stalls and unplugging; in each cycle
-  tracking is made to fail, the scene and the surface are saved, and the scene is loaded again.
+  the camera finds itself in the scene that was loaded, tracking is made to fail, all is forgotten and learnt anew, the scene and the
+  surface are saved, and the scene is loaded again. So no cycle holds more than the one before: what grows is a leak.
 - library: soak_library, a plain wall with counters near their limits.
 
 Memory, file handles and threads are read from /proc once a cycle, and the processor time of its frames. Of the second half of a run, the
@@ -157,7 +158,8 @@ class CameraLoop:
         for begin in range(0, num_cycles * self.cycle, self.cycle):
             events += [f"unplug@{begin + part}+{part // 3}", f"cover@{begin + 2 * part}+4", f"jump@{begin + 2 * part + 3}=15"]
             events += [f"stall@{begin + 3 * part}+2", f"freeze@{begin + 4 * part}+{part // 3}"]
-            keys += [f"l@{begin + part // 2}", f"m@{begin + 4 * part}", f"s@{begin + self.cycle - 2}", f"o@{begin + self.cycle - 1}"]
+            keys += [f"l@{begin + part // 2}", f"r@{begin + part - 1}", f"m@{begin + 4 * part}"]
+            keys += [f"s@{begin + self.cycle - 2}", f"o@{begin + self.cycle - 1}"]
         return events, [word for key in keys for word in ("--press", key)]
 
     def run(self):
@@ -172,7 +174,6 @@ class CameraLoop:
             events, keys = self.script(num_cycles)
             command = [self.bin / "reconstruct_live", "--mode", f"{size}@{FPS}", "--headless", "--save-scene", scene]
             command += ["--save-mesh", self.out / "soak.ply", "--set", "camera.silence_timeout_ms=1000", *keys]
-            command += ["--set", "forest.reservoirs.examples_per_view=16"]  # all is learnt within minutes: what grows then is a leak
             command += ["--duration", f"{run_s:.0f}"] if run_s > 0 else ["--frames", str(num_cycles * self.cycle)]
             if scene.exists():
                 command += ["--load-scene", scene]
