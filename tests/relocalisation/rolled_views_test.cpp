@@ -115,7 +115,7 @@ int num_tried(const Frame& frame) {
   ContextOptions options;
   options.trace = &trace;
   trained(8, Context(options)).relocalise(frame);
-  return static_cast<int>(trace.stages().at("relocalise/ransac").size());
+  return static_cast<int>(trace.stages().at("relocalise/hypotheses").size());
 }
 
 TEST_CASE("rolled views: the right roll is tried early, and one that cannot be right is not tried") {

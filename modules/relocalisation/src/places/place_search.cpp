@@ -92,12 +92,12 @@ class Attempts {
     Place& place = places_[vote.place];
     const PlaceView view{place.reservoirs.view(), place.modes.view(), Span<const ReservoirPoint>(place.latest)};
     std::vector<PoseEstimate> estimates = estimates_of(estimator_.estimate(context_, query_, view, forest.view(vote.roll)), place);
-    if (estimates.empty()) return;
-    if (attempts_.empty() || estimates.front().confidence > confidence_) {
-      confidence_ = estimates.front().confidence;
+    const float confidence = estimates.empty() ? 0.0F : estimates.front().confidence;
+    if (attempts_.empty() || confidence > confidence_) {
+      confidence_ = confidence;
       if (explanation_ != nullptr) *explanation_ = explain(estimator_, estimates, place.origin_world);
     }
-    attempts_.push_back({vote.place, std::move(estimates)});
+    if (!estimates.empty()) attempts_.push_back({vote.place, std::move(estimates)});
   }
 
   float confidence() const { return confidence_; }  ///< the highest; 0 if there is none

@@ -10,8 +10,6 @@
 
 namespace foothold {
 
-inline constexpr int kAlignmentSamples = 1200;  ///< (T) of the pool
-
 /// A pooled pixel's surface: its averaged camera point and normal; no normal (zero) where the surface is broken or unmeasured.
 struct SurfaceSample {
   float point_camera[3];   ///< [m]

@@ -33,8 +33,7 @@ template <int kWidth>
 struct FindNearPoints {
   LeafReservoirsView reservoirs;
   int num_trees;
-  std::size_t pool_size;
-  const std::uint32_t* leaves;
+  PoolPart part;  ///< of which the samples are the first
   const SurfaceSample* surfaces;
   std::size_t num_items;
   float reach_mm;
@@ -61,8 +60,8 @@ struct FindNearPoints {
   /// num_leaves for a sample without leaf or normal.
   FOOTHOLD_HD std::uint32_t leaf_of_item(std::uint32_t i) const {
     const std::size_t sample = i / static_cast<std::uint32_t>(num_trees);
-    const std::size_t tree = i % static_cast<std::uint32_t>(num_trees);
-    return has_normal(surfaces[sample]) ? leaves[tree * pool_size + sample] : static_cast<std::uint32_t>(reservoirs.num_leaves);
+    const auto tree = static_cast<int>(i % static_cast<std::uint32_t>(num_trees));
+    return has_normal(surfaces[sample]) ? part.leaf(sample, tree) : static_cast<std::uint32_t>(reservoirs.num_leaves);
   }
 
   FOOTHOLD_HD void prefetch_leaf(std::uint32_t leaf) const {
@@ -232,10 +231,10 @@ class Aligner {
   void find_near_points(const CorrespondencePool& pool, Alignment& alignment) const {
     constexpr std::size_t kWidth = Executor::kVectorWidth > 1 ? 8 : 1;  // whose points a first-level cache holds
     const std::size_t num_items = alignment.surfaces.size() * static_cast<std::size_t>(num_trees_);
-    executor_.for_each(
-        (num_items + kWidth - 1) / kWidth,
-        FindNearPoints<kWidth>{reservoirs_, num_trees_, pool.sampled.size(), pool.leaves.data(), alignment.surfaces.data(), num_items,
-                               1000.0F * (kFirstReachM + kLargestMotionM), alignment.state.data(), alignment.near.data()});
+    executor_.for_each((num_items + kWidth - 1) / kWidth,
+                       FindNearPoints<kWidth>{reservoirs_, num_trees_, PoolPart{0, alignment.surfaces.size(), pool.leaves.data()},
+                                              alignment.surfaces.data(), num_items, 1000.0F * (kFirstReachM + kLargestMotionM),
+                                              alignment.state.data(), alignment.near.data()});
   }
 
   void approach(int step, Alignment& alignment) const {

@@ -39,7 +39,7 @@ Explanation explain(const PoseEstimator& estimator, const std::vector<PoseEstima
     explanation.evidence.push_back({kConfidenceFeatures[i].name, features[i]});
   }
   const std::vector<PooledPixel> pixels = buffers.pool.pixels.to_host();
-  const std::size_t num_pixels = buffers.pool.slots.to_host().back();
+  const std::size_t num_pixels = buffers.pool.slots.to_host()[buffers.pool.num_filled];
   const std::vector<Mode> modes = buffers.pool.modes.to_host();
   for (std::size_t i = 0; i < num_pixels; ++i) {
     const PooledPixel& pixel = pixels[i];

@@ -128,6 +128,19 @@ FOOTHOLD_HD inline bool is_same_pose(const SE3& a, const SE3& b, float distance_
          (a.rotation - b.rotation).squaredNorm() < 2.0F * angle_rad * angle_rad;
 }
 
+/// Lets each hypothesis fail whose energy says that it explains next to nothing.
+struct DropHopeless {
+  CorrespondencePoolView pool;
+  float truncation;
+  HypothesesView hypotheses;
+
+  FOOTHOLD_HD void operator()(std::size_t slot) const {
+    const std::uint32_t num_scored = *pool.num_pixels < kCullSamples ? *pool.num_pixels : kCullSamples;
+    float& energy = hypotheses.energies[hypotheses.at(slot)];
+    if (energy > kHopelessEnergy * truncation * static_cast<float>(num_scored)) energy = kFailedEnergy;
+  }
+};
+
 /// Lets each hypothesis fail that is nearly the same as one before it, whatever became of that one: refined, both would become one.
 struct DropRepeats {
   HypothesesView hypotheses;
@@ -165,7 +178,7 @@ void draw_hypotheses(const Executor& executor, const CorrespondencePoolView& poo
 template <class Executor>
 std::size_t num_alive(const HypothesesView& hypotheses, std::size_t num_slots) {
   if constexpr (Executor::kDevice == Device::kCpu) {
-    while (num_slots > 1 && hypotheses.has_failed(num_slots - 1)) --num_slots;
+    while (num_slots > 0 && hypotheses.has_failed(num_slots - 1)) --num_slots;
   }
   return num_slots;
 }

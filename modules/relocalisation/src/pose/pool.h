@@ -46,10 +46,11 @@ struct CorrespondencePool {
     modes.resize(leaves.size() * static_cast<std::size_t>(max_modes));
   }
 
-  CorrespondencePoolView view() const { return {pixels.data(), modes.data(), slots.data() + sampled.size()}; }
+  CorrespondencePoolView view() const { return {pixels.data(), modes.data(), slots.data() + num_filled}; }
 
   Array<SampledPixel> sampled;
-  Array<std::uint32_t> leaves;  ///< tree by tree
+  std::size_t num_filled = 0;   ///< of the sampled pixels, those that were looked up
+  Array<std::uint32_t> leaves;  ///< part by part, tree by tree
   Array<std::uint32_t> mode_counts;
   Array<std::uint32_t> first_modes;
   Array<std::uint32_t> has_modes;

@@ -38,20 +38,29 @@ struct SamplePoolPixel {
   }
 };
 
+/// Sampled pixels that are looked up together.
+struct PoolPart {
+  std::size_t first;
+  std::size_t size;
+  const std::uint32_t* leaves;  ///< tree by tree
+
+  FOOTHOLD_HD std::uint32_t leaf(std::size_t i, int tree) const { return leaves[static_cast<std::size_t>(tree) * size + (i - first)]; }
+};
+
 /// Counts the modes of the leaves that a sampled pixel reaches.
 struct CountModes {
   LeafModesView leaf_modes;
   int num_trees;
   std::uint32_t num_leaves;
-  std::size_t pool_size;
-  const std::uint32_t* leaves;
+  PoolPart part;
   std::uint32_t* mode_counts;
   std::uint32_t* has_modes;
 
-  FOOTHOLD_HD void operator()(std::size_t i) const {
+  FOOTHOLD_HD void operator()(std::size_t index) const {
+    const std::size_t i = part.first + index;
     std::uint32_t count = 0;
     for (int tree = 0; tree < num_trees; ++tree) {
-      const std::uint32_t leaf = leaves[static_cast<std::size_t>(tree) * pool_size + i];
+      const std::uint32_t leaf = part.leaf(i, tree);
       if (leaf < num_leaves) count += leaf_modes.num_modes[leaf];
     }
     mode_counts[i] = count;
@@ -69,9 +78,8 @@ struct GatherPixels {
   LeafModesView leaf_modes;
   int num_trees;
   std::uint32_t num_leaves;
-  std::size_t pool_size;
+  PoolPart part;
   const SampledPixel* sampled;
-  const std::uint32_t* leaves;
   const std::uint32_t* mode_counts;
   const std::uint32_t* first_modes;
   const std::uint32_t* slots;
@@ -79,8 +87,8 @@ struct GatherPixels {
   Mode* modes;
 
   FOOTHOLD_HD void operator()(std::size_t group) const {
-    const std::size_t first = group * static_cast<std::size_t>(kWidth);
-    const std::size_t end = first + kWidth < pool_size ? first + kWidth : pool_size;
+    const std::size_t first = part.first + group * static_cast<std::size_t>(kWidth);
+    const std::size_t end = first + kWidth < part.first + part.size ? first + kWidth : part.first + part.size;
     if constexpr (kWidth > 1) {
       for (std::size_t i = first; i < end; ++i) for_each_mode(i, [](const Mode& mode) { prefetch(&mode); });
     }
@@ -93,7 +101,7 @@ struct GatherPixels {
   template <class Visit>
   FOOTHOLD_HD FOOTHOLD_INLINE void for_each_mode(std::size_t i, const Visit& visit) const {
     for (int tree = 0; tree < num_trees; ++tree) {
-      const std::uint32_t leaf = leaves[static_cast<std::size_t>(tree) * pool_size + i];
+      const std::uint32_t leaf = part.leaf(i, tree);
       if (leaf >= num_leaves) continue;
       const std::uint32_t num_modes = leaf_modes.num_modes[leaf];
       for (std::uint32_t k = 0; k < num_modes; ++k) visit(leaf_modes.modes.at(leaf, static_cast<int>(k)));
@@ -129,28 +137,29 @@ void sample_pool(const Executor& executor, const PoseQuery& query, std::uint64_t
                                                          static_cast<std::uint32_t>(pool.sampled.size()), pool.sampled.data()});
 }
 
-/// Fills the pool with the sampled pixels that reach leaves with modes.
+/// Fills the pool with those of the next sampled pixels, up to `num_samples` in all, that reach leaves with modes.
 template <class Executor>
 void fill_pool(const Context& context, const PoseQuery& query, const LeafModesView& leaf_modes, const ForestView& forest,
-               CorrespondencePool& pool) {
+               std::size_t num_samples, CorrespondencePool& pool) {
   const Executor executor(context);
-  const std::size_t size = pool.sampled.size();
   const auto num_leaves = static_cast<std::uint32_t>(forest.num_leaves);
-  find_leaves(context, query.image, forest, Span<const SampledPixel>(pool.sampled.data(), size),
-              Span<std::uint32_t>(pool.leaves.data(), size * static_cast<std::size_t>(forest.num_trees)));
-  executor.for_each(
-      size, CountModes{leaf_modes, forest.num_trees, num_leaves, size, pool.leaves.data(), pool.mode_counts.data(), pool.has_modes.data()});
+  const std::size_t num_new = num_samples - pool.num_filled;
+  const auto num_trees = static_cast<std::size_t>(forest.num_trees);
+  const Span<std::uint32_t> leaves(pool.leaves.data() + pool.num_filled * num_trees, num_new * num_trees);
+  const PoolPart part{pool.num_filled, num_new, leaves.data()};
+  find_leaves(context, query.image, forest, Span<const SampledPixel>(pool.sampled.data() + part.first, num_new), leaves);
+  executor.for_each(num_new, CountModes{leaf_modes, forest.num_trees, num_leaves, part, pool.mode_counts.data(), pool.has_modes.data()});
   const auto scan = [&](const Array<std::uint32_t>& counts, Array<std::uint32_t>& sums) {
-    executor.exclusive_scan(Span<const std::uint32_t>(counts.data(), size), Span<std::uint32_t>(sums.data(), size + 1));
+    executor.exclusive_scan(Span<const std::uint32_t>(counts.data(), num_samples), Span<std::uint32_t>(sums.data(), num_samples + 1));
   };
   scan(pool.mode_counts, pool.first_modes);
   scan(pool.has_modes, pool.slots);
   constexpr std::size_t kWidth = Executor::kVectorWidth > 1 ? 4 : 1;  // whose modes a first-level cache holds
-  executor.for_each(
-      (size + kWidth - 1) / kWidth,
-      GatherPixels<kWidth>{query.frame.calibration.depth, query.image.view(), query.image.downscale(), leaf_modes, forest.num_trees,
-                           num_leaves, size, pool.sampled.data(), pool.leaves.data(), pool.mode_counts.data(), pool.first_modes.data(),
-                           pool.slots.data(), pool.pixels.data(), pool.modes.data()});
+  executor.for_each((num_new + kWidth - 1) / kWidth,
+                    GatherPixels<kWidth>{query.frame.calibration.depth, query.image.view(), query.image.downscale(), leaf_modes,
+                                         forest.num_trees, num_leaves, part, pool.sampled.data(), pool.mode_counts.data(),
+                                         pool.first_modes.data(), pool.slots.data(), pool.pixels.data(), pool.modes.data()});
+  pool.num_filled = num_samples;
 }
 
 }  // namespace foothold

@@ -36,7 +36,8 @@ struct PoseAlgorithms {
                        const SearchPlan& plan, PoseBuffers& buffers);
 
  private:
-  static void preempt(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers);
+  static std::size_t cull(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers);
+  static void preempt(const Executor& executor, const SearchPlan& plan, std::size_t num_active, PoseBuffers& buffers);
 };
 
 template <class Executor>
@@ -51,21 +52,33 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
                                         const SearchPlan& plan, PoseBuffers& buffers) {
   constexpr int kFinalRounds = 2;  // modes are assigned anew before each
   const Executor executor(context);
-  const CorrespondencePoolView pool = buffers.pool.view();
   Hypotheses& hypotheses = buffers.hypotheses;
   const std::size_t num_candidates = buffers.candidates.size();
-  {
+  const auto fill = [&](int num_samples) {
     const ScopedStage stage(context, "relocalise/correspondences");
-    fill_pool<Executor>(context, query, place.leaf_modes, forest, buffers.pool);
-  }
+    fill_pool<Executor>(context, query, place.leaf_modes, forest, static_cast<std::size_t>(num_samples), buffers.pool);
+  };
+  buffers.pool.num_filled = 0;
+  fill(plan.first_samples);
   {
     const ScopedStage stage(context, "relocalise/hypotheses");
-    draw_hypotheses(executor, pool, plan, hypotheses);
+    draw_hypotheses(executor, buffers.pool.view(), plan, hypotheses);
   }
+  std::size_t num_active = 0;
+  {
+    const ScopedStage stage(context, "relocalise/cull");
+    num_active = cull(executor, plan, buffers);
+  }
+  if (num_active == 0) {
+    std::fill(buffers.candidates.data(), buffers.candidates.data() + num_candidates, PoseCandidate{});
+    return;
+  }
+  if (plan.first_samples < plan.pool_size) fill(plan.pool_size);
   {
     const ScopedStage stage(context, "relocalise/ransac");
-    preempt(executor, plan, buffers);
+    preempt(executor, plan, num_active, buffers);
   }
+  const CorrespondencePoolView pool = buffers.pool.view();
   if (plan.confronts_scene) {
     const ScopedStage stage(context, "relocalise/rank");
     draw_remembered_points(executor, place.reservoirs, plan.seed, buffers.ranking);
@@ -89,9 +102,10 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
   if (plan.confronts_scene) rejoin(executor, query, place.latest, buffers.alignment, buffers.candidates);
 }
 
-/// Culls, then pre-emptive RANSAC. Those that lose keep their places behind those that win.
+/// Gives up all but the best hypotheses. Those that lose keep their places behind those that win.
+/// @return How many are left, where asking costs nothing; as many as may be left elsewhere.
 template <class Executor>
-void PoseAlgorithms<Executor>::preempt(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers) {
+std::size_t PoseAlgorithms<Executor>::cull(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers) {
   const CorrespondencePoolView pool = buffers.pool.view();
   Hypotheses& hypotheses = buffers.hypotheses;
   std::size_t num_active = num_alive<Executor>(hypotheses.view(), hypotheses.poses.size());
@@ -101,28 +115,34 @@ void PoseAlgorithms<Executor>::preempt(const Executor& executor, const SearchPla
   };
   const auto keep = [&](int num_best) { num_active = std::min(num_active, static_cast<std::size_t>(num_best)); };
 
-  // The cull, in one or two steps.
   score_and_sort({0, plan.first_cull_samples, false});
   if (plan.first_cull_samples < kCullSamples) {
     keep(kFirstCullSurvivors);
     score_and_sort({plan.first_cull_samples, kCullSamples, false});
   }
   keep(plan.cull_survivors);
+  if (plan.drops_hopeless) executor.for_each(num_active, DropHopeless{pool, plan.energy_truncation, hypotheses.view()});
   if (plan.drops_repeats) {
     executor.for_each(num_active, DropRepeats{hypotheses.view(), kSameHypothesisM, kSameHypothesisRad});
     sort_by_energy(executor, num_active, hypotheses);
   }
+  return num_alive<Executor>(hypotheses.view(), num_active);
+}
 
-  // The rounds: more samples, better poses, fewer of them.
+/// Pre-emptive RANSAC: in each round more samples, better poses, fewer of them. Those that lose keep their places behind those that win.
+template <class Executor>
+void PoseAlgorithms<Executor>::preempt(const Executor& executor, const SearchPlan& plan, std::size_t num_active, PoseBuffers& buffers) {
+  const CorrespondencePoolView pool = buffers.pool.view();
+  Hypotheses& hypotheses = buffers.hypotheses;
   int num_samples = kCullSamples;
   for (int num_kept = plan.cull_survivors; num_kept > 1; num_kept /= plan.round_divisor) {
-    keep(num_kept);
-    num_active = num_alive<Executor>(hypotheses.view(), num_active);
+    num_active = num_alive<Executor>(hypotheses.view(), std::min(num_active, static_cast<std::size_t>(num_kept)));
     num_samples += plan.round_samples;
-    if (num_active == 1) break;
+    if (num_active <= 1) break;
     refine(executor, pool, {std::min(num_samples, plan.pool_size), plan.round_iterations}, num_active, hypotheses, buffers.assignments);
     if (plan.drops_repeats) executor.for_each(num_active, DropRepeats{hypotheses.view(), kSameRefinedM, kSameRefinedRad});
-    score_and_sort({0, num_samples, true});
+    score(executor, pool, {0, num_samples, true}, plan.energy_truncation, num_active, hypotheses);
+    sort_by_energy(executor, num_active, hypotheses);
   }
 }
 

@@ -13,7 +13,7 @@ namespace foothold {
 struct DrawnPoints {
   Span<const RememberedPoint> points;
 
-  FOOTHOLD_HD static float min_supported(float) { return 100.0F; }
+  FOOTHOLD_HD static float min_supported(float num_points) { return 0.012F * num_points; }
   FOOTHOLD_HD std::size_t size() const { return points.size(); }
   FOOTHOLD_HD bool get(std::size_t i, Eigen::Vector3f& point_scene) const {
     const RememberedPoint& point = points[i];
@@ -33,18 +33,19 @@ struct AlignByProjection {
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t) const {
     for (int step = 0; step < num_steps; ++step) {
-      if (!take_step(team, distance_m * (2 * step < num_steps ? 2.0F : 1.0F))) return;
+      const bool is_coarse = 2 * step < num_steps;
+      if (!take_step(team, distance_m * (is_coarse ? 2.0F : 1.0F), is_coarse ? kCoarseStride : 1)) return;
       team.sync();
     }
   }
 
  private:
   /// @return False, for every lane, if too few points are supported: the pose stays, and no later step reaches further.
-  FOOTHOLD_HD bool take_step(const typename Executor::Team& team, float reach_m) const {
+  FOOTHOLD_HD bool take_step(const typename Executor::Team& team, float reach_m, std::uint32_t stride) const {
     const SE3 pose = state->scene_from_camera;
     float sums[kNumSums] = {};
     const auto num_points = static_cast<std::uint32_t>(points.size());
-    for (auto i = static_cast<std::uint32_t>(team.lane()); i < num_points; i += static_cast<std::uint32_t>(team.size())) {
+    for (auto i = static_cast<std::uint32_t>(team.lane()) * stride; i < num_points; i += static_cast<std::uint32_t>(team.size()) * stride) {
       Eigen::Vector3f point_scene;
       if (!points.get(i, point_scene)) continue;
       sums[kNumValid] += 1.0F;
@@ -62,6 +63,7 @@ struct AlignByProjection {
   static constexpr int kNumSums = kNumSupported + 2;
   static constexpr float kDamping = 1e-4F;
   static constexpr float kNearestM = 0.3F;
+  static constexpr std::uint32_t kCoarseStride = 4;  ///< (T) few points suffice in the first half of the steps
 
   FOOTHOLD_HD FOOTHOLD_INLINE void add_point(const SE3& pose, const Eigen::Vector3f& point_scene, float reach_m,
                                              float (&sums)[kNumSums]) const {
