@@ -26,7 +26,7 @@ NearPoints near_points_of(const std::vector<ReservoirPoint>& points, const Surfa
   const std::uint32_t leaf = 0;
   const AlignmentState state{scene_from_camera, 0};
   NearPoints found{};
-  FindNearPoints<1>{reservoirs.view(), 1, 1, &leaf, &surface, 1, 80.0F, &state, &found}(0);
+  FindNearPoints<1>{reservoirs.view(), 1, {0, 1, &leaf}, &surface, 1, 80.0F, &state, &found}(0);
   return found;
 }
 
@@ -63,12 +63,12 @@ TEST_CASE("FindNearPoints: finds the same points one by one and several at once"
   std::vector<NearPoints> single(kNumItems, untouched);
   std::vector<NearPoints> together(kNumItems, untouched);
   for (std::size_t i = 0; i < kNumItems; ++i) {
-    FindNearPoints<1>{
-        reservoirs.view(), kNumTrees, kNumSamples, leaves.data(), surfaces.data(), kNumItems, 80.0F, &state, single.data()}(i);
+    FindNearPoints<1>{reservoirs.view(), kNumTrees, {0, kNumSamples, leaves.data()}, surfaces.data(), kNumItems, 80.0F, &state,
+                      single.data()}(i);
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    FindNearPoints<8>{
-        reservoirs.view(), kNumTrees, kNumSamples, leaves.data(), surfaces.data(), kNumItems, 80.0F, &state, together.data()}(i);
+    FindNearPoints<8>{reservoirs.view(), kNumTrees, {0, kNumSamples, leaves.data()}, surfaces.data(), kNumItems, 80.0F, &state,
+                      together.data()}(i);
   }
   for (std::size_t i = 0; i < kNumItems; ++i) {
     INFO(i);

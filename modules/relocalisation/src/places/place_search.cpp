@@ -15,6 +15,7 @@ namespace {
 
 // (T) docs/experiments/places.md
 constexpr float kFewestVotes = 0.02F;                         ///< share below which a view is hardly ever of a place that was learnt
+constexpr float kFamiliarVotes = 0.04F;                       ///< share from which a view is hardly ever of nowhere
 constexpr float kLikelyVotes = 0.4F;                          ///< of the highest share, from which a place may be the right one
 constexpr float kRivalVotes = 0.7F;                           ///< the same, from which a place may be mistaken for the other
 constexpr std::size_t kMostPlaces = 5;                        ///< upright attempts
@@ -165,8 +166,10 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
 
   votes_.prepare(context, as_seen);
   std::vector<PlaceVote> upright = votes_.count(context, as_seen, modes, {forest.view()}, 0, kMostVoters);
-  const bool seems_unfamiliar = most_votes(upright) < kFewestVotes && is_time_left();
-  const PoseQuery query{as_seen.frame, seems_unfamiliar ? find_light(context, as_seen, modes, forest.view(), upright) : as_seen.image};
+  const bool may_be_relit = most_votes(upright) < kFewestVotes && is_time_left();
+  const bool is_unfamiliar = most_votes(upright) < kFamiliarVotes;
+  const PoseQuery query{as_seen.frame, may_be_relit ? find_light(context, as_seen, modes, forest.view(), upright) : as_seen.image,
+                        is_unfamiliar};
   estimator_.prepare(context, query);
 
   Attempts attempts(context, estimator_, query, places, explanation);

@@ -38,6 +38,7 @@ struct Hypotheses {
       : poses(memory, static_cast<std::size_t>(num_hypotheses)),
         energies(memory, poses.size()),
         order(memory, poses.size()),
+        given_up(memory, 1),
         sort_buffer(memory) {}
 
   HypothesesView view() { return {poses.data(), energies.data(), order.data()}; }
@@ -45,6 +46,7 @@ struct Hypotheses {
   Array<SE3> poses;
   Array<float> energies;
   Array<std::uint64_t> order;
+  Array<std::int32_t> given_up;  ///< 1 if a trial showed that none is worth drawing
   Array<std::uint64_t> sort_buffer;
 };
 

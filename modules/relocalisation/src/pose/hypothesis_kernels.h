@@ -40,10 +40,12 @@ struct DrawHypothesis {
   CorrespondencePoolView pool;
   SearchPlan plan;
   HypothesesView hypotheses;
+  const std::int32_t* given_up;  ///< nullptr without a trial before
 
   FOOTHOLD_HD void operator()(const typename Executor::Team& team, std::size_t i) const {
     const std::uint32_t num_pixels = *pool.num_pixels;
-    const int num_draws = num_pixels < 3 ? 0 : plan.max_draws;
+    const bool is_hopeless = num_pixels < 3 || (given_up != nullptr && *given_up != 0);
+    const int num_draws = is_hopeless ? 0 : plan.max_draws;
     const Random random(plan.seed, i);
     for (int first = 0; first < num_draws; first += team.size()) {
       const int draw = first + team.lane();
@@ -128,16 +130,17 @@ FOOTHOLD_HD inline bool is_same_pose(const SE3& a, const SE3& b, float distance_
          (a.rotation - b.rotation).squaredNorm() < 2.0F * angle_rad * angle_rad;
 }
 
-/// Lets each hypothesis fail whose energy says that it explains next to nothing.
-struct DropHopeless {
+/// Gives up if the best hypothesis' energy says that it explains next to nothing. @pre They were culled.
+struct GiveUpHopeless {
   CorrespondencePoolView pool;
   float truncation;
   HypothesesView hypotheses;
+  std::int32_t* given_up;
 
-  FOOTHOLD_HD void operator()(std::size_t slot) const {
+  FOOTHOLD_HD void operator()(std::size_t) const {
     const std::uint32_t num_scored = *pool.num_pixels < kCullSamples ? *pool.num_pixels : kCullSamples;
-    float& energy = hypotheses.energies[hypotheses.at(slot)];
-    if (energy > kHopelessEnergy * truncation * static_cast<float>(num_scored)) energy = kFailedEnergy;
+    const float limit = kHopelessEnergy * truncation * static_cast<float>(num_scored);
+    *given_up = hypotheses.energies[hypotheses.at(0)] > limit ? 1 : 0;
   }
 };
 
@@ -165,12 +168,21 @@ void sort_by_energy(const Executor& executor, std::size_t num_slots, Hypotheses&
 }
 
 /// Draws hypotheses, whose order is that of their numbers, but for those that failed, which come last.
+/// @param given_up  If not nullptr and not 0, all of them fail.
 template <class Executor>
-void draw_hypotheses(const Executor& executor, const CorrespondencePoolView& pool, const SearchPlan& plan, Hypotheses& hypotheses) {
+void draw_hypotheses(const Executor& executor, const CorrespondencePoolView& pool, const SearchPlan& plan, const std::int32_t* given_up,
+                     Hypotheses& hypotheses) {
   const auto num_hypotheses = static_cast<std::size_t>(plan.num_hypotheses);
-  executor.for_each_team(num_hypotheses, DrawHypothesis<Executor>{pool, plan, hypotheses.view()});
+  executor.for_each_team(num_hypotheses, DrawHypothesis<Executor>{pool, plan, hypotheses.view(), given_up});
   executor.for_each(num_hypotheses, MakeEnergyKey{hypotheses.view(), true});
   executor.sort(Span<std::uint64_t>(hypotheses.order), hypotheses.sort_buffer, 32, 64);
+}
+
+/// Whether the search was given up, where asking costs nothing; false elsewhere.
+template <class Executor>
+bool has_given_up(const Hypotheses& hypotheses) {
+  if constexpr (Executor::kDevice == Device::kCpu) return *hypotheses.given_up.data() != 0;
+  return false;
 }
 
 /// How many of the first slots hold hypotheses that have not failed, where asking costs nothing; all of them elsewhere.

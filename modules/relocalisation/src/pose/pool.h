@@ -28,6 +28,15 @@ struct CorrespondencePoolView {
   const std::uint32_t* num_pixels = nullptr;  ///< pixels with at least one mode; in device memory
 };
 
+/// Sampled pixels that are looked up together.
+struct PoolPart {
+  std::size_t first;
+  std::size_t size;
+  const std::uint32_t* leaves;  ///< tree by tree
+
+  FOOTHOLD_HD std::uint32_t leaf(std::size_t i, int tree) const { return leaves[static_cast<std::size_t>(tree) * size + (i - first)]; }
+};
+
 /// Owns the pool, and what filling it needs.
 struct CorrespondencePool {
   CorrespondencePool(const Memory& memory, int pool_size)

@@ -38,15 +38,6 @@ struct SamplePoolPixel {
   }
 };
 
-/// Sampled pixels that are looked up together.
-struct PoolPart {
-  std::size_t first;
-  std::size_t size;
-  const std::uint32_t* leaves;  ///< tree by tree
-
-  FOOTHOLD_HD std::uint32_t leaf(std::size_t i, int tree) const { return leaves[static_cast<std::size_t>(tree) * size + (i - first)]; }
-};
-
 /// Counts the modes of the leaves that a sampled pixel reaches.
 struct CountModes {
   LeafModesView leaf_modes;

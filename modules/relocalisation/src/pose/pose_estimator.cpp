@@ -18,7 +18,7 @@ PoseBuffers::PoseBuffers(const Memory& memory, const SearchPlan& plan)
       hypotheses(memory, plan.num_hypotheses),
       assignments(memory, plan.cull_survivors, plan.pool_size),
       ranking(memory, plan.confronts_scene ? kRememberedPoints : 0, plan.num_hypotheses),
-      alignment(memory, plan.confronts_scene ? plan.first_samples : 0),
+      alignment(memory, plan.confronts_scene ? std::min(kFirstSamples, plan.pool_size) : 0),
       candidates(memory, static_cast<std::size_t>(plan.num_candidates)) {}
 
 PoseEstimator::PoseEstimator(const Context& context, const SearchPlan& plan) : plan_(plan), buffers_(context.memory(), plan) {}

@@ -58,22 +58,23 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
     const ScopedStage stage(context, "relocalise/correspondences");
     fill_pool<Executor>(context, query, place.leaf_modes, forest, static_cast<std::size_t>(num_samples), buffers.pool);
   };
-  buffers.pool.num_filled = 0;
-  fill(plan.first_samples);
-  {
+  const auto draw_and_cull = [&](const std::int32_t* given_up) {
     const ScopedStage stage(context, "relocalise/hypotheses");
-    draw_hypotheses(executor, buffers.pool.view(), plan, hypotheses);
+    draw_hypotheses(executor, buffers.pool.view(), plan, given_up, hypotheses);
+    return cull(executor, plan, buffers);
+  };
+  const auto answer_none = [&] { std::fill(buffers.candidates.data(), buffers.candidates.data() + num_candidates, PoseCandidate{}); };
+
+  buffers.pool.num_filled = 0;
+  fill(std::min(kFirstSamples, plan.pool_size));
+  if (query.is_unfamiliar) {
+    draw_and_cull(nullptr);
+    executor.for_each(1, GiveUpHopeless{buffers.pool.view(), plan.energy_truncation, hypotheses.view(), hypotheses.given_up.data()});
+    if (has_given_up<Executor>(hypotheses)) return answer_none();
   }
-  std::size_t num_active = 0;
-  {
-    const ScopedStage stage(context, "relocalise/cull");
-    num_active = cull(executor, plan, buffers);
-  }
-  if (num_active == 0) {
-    std::fill(buffers.candidates.data(), buffers.candidates.data() + num_candidates, PoseCandidate{});
-    return;
-  }
-  if (plan.first_samples < plan.pool_size) fill(plan.pool_size);
+  fill(plan.pool_size);
+  const std::size_t num_active = draw_and_cull(query.is_unfamiliar ? hypotheses.given_up.data() : nullptr);
+  if (num_active == 0) return answer_none();
   {
     const ScopedStage stage(context, "relocalise/ransac");
     preempt(executor, plan, num_active, buffers);
@@ -121,7 +122,6 @@ std::size_t PoseAlgorithms<Executor>::cull(const Executor& executor, const Searc
     score_and_sort({plan.first_cull_samples, kCullSamples, false});
   }
   keep(plan.cull_survivors);
-  if (plan.drops_hopeless) executor.for_each(num_active, DropHopeless{pool, plan.energy_truncation, hypotheses.view()});
   if (plan.drops_repeats) {
     executor.for_each(num_active, DropRepeats{hypotheses.view(), kSameHypothesisM, kSameHypothesisRad});
     sort_by_energy(executor, num_active, hypotheses);

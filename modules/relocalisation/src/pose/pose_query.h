@@ -14,6 +14,7 @@ namespace foothold {
 struct PoseQuery {
   const Frame& frame;
   const FeatureImage& image;
+  bool is_unfamiliar = false;  ///< likely of nowhere: hypotheses that explain next to nothing are given up early
 
   /// The depth camera as if its images were averaged as the feature image is.
   Intrinsics averaged_intrinsics() const { return frame.calibration.depth.scaled(1.0F / static_cast<float>(image.downscale())); }

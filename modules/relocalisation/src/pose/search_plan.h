@@ -13,10 +13,10 @@ namespace foothold {
 inline constexpr int kCullSamples = 500;
 /// Hypotheses that survive a first, coarse cull (T).
 inline constexpr int kFirstCullSurvivors = 256;
-/// Share of the highest possible energy from which a hypothesis that was scored by kCullSamples is hopeless (T).
-inline constexpr float kHopelessEnergy = 0.99F;
-/// Sampled pixels that hypotheses are drawn from, and that the best is aligned with (T).
+/// Sampled pixels that an unfamiliar view is tried with first, and that the best hypothesis is aligned with (T).
 inline constexpr int kFirstSamples = 1200;
+/// Share of the highest possible energy, scored by kCullSamples, from which the best hypothesis of that trial is hopeless (T).
+inline constexpr float kHopelessEnergy = 0.9935F;
 
 /// Hypotheses nearer to one another than this are one, of which the one that scored best so far is kept: before they are refined, and after
 /// (T).
@@ -28,11 +28,7 @@ inline constexpr float kSameRefinedRad = 0.03F;
 /// What the stages of a search do. The paper's numbers stand in as_published().
 struct SearchPlan {
   SearchPlan(const PoseEstimatorSettings& settings, std::uint64_t the_seed)
-      : pool_size(settings.pool_size),
-        num_hypotheses(settings.num_hypotheses),
-        num_candidates(settings.num_candidates),
-        seed(the_seed),
-        first_samples(settings.as_published || pool_size < kFirstSamples ? pool_size : kFirstSamples) {
+      : pool_size(settings.pool_size), num_hypotheses(settings.num_hypotheses), num_candidates(settings.num_candidates), seed(the_seed) {
     if (settings.as_published) as_published();
     if (num_candidates > num_hypotheses) num_candidates = num_hypotheses;
   }
@@ -41,7 +37,6 @@ struct SearchPlan {
   int num_hypotheses;  ///< that are drawn
   int num_candidates;  ///< that are returned
   std::uint64_t seed;
-  int first_samples;  ///< that hypotheses are drawn from, and by whose modes they are culled
 
   int max_draws = 100;                 ///< (T) after which a hypothesis is given up
   float max_rigidity_error_m = 0.05F;  ///< (T) largest difference of a distance in the camera to the same distance in the scene
@@ -52,7 +47,6 @@ struct SearchPlan {
   float energy_truncation = 3.0F;      ///< (T) Mahalanobis distance at which a sample's energy saturates
   int round_iterations = 3;            ///< (T) Levenberg-Marquardt steps of a round
   int final_iterations = 4;            ///< (T) Levenberg-Marquardt steps of the best hypothesis, on the whole pool
-  bool drops_hopeless = true;          ///< (T) give up hypotheses that explain next to nothing
   bool drops_repeats = true;           ///< (T) keep one of several hypotheses that are nearly the same
   int round_divisor = 4;               ///< (T) one of so many hypotheses survives a round
   bool confronts_scene = true;         ///< (T) rank the candidates by, and align the best with, points of the whole scene
@@ -68,7 +62,6 @@ struct SearchPlan {
     energy_truncation = 1e6F;  // (P) none
     round_iterations = 10;     // (R)
     final_iterations = 10;     // (R)
-    drops_hopeless = false;    // (P)
     drops_repeats = false;     // (P)
     round_divisor = 2;         // (P)
     confronts_scene = false;   // (P)
