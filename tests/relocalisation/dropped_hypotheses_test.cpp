@@ -69,7 +69,7 @@ bool is_refined(const Frame& frame) {
   ForestRelocaliser relocaliser(Context(options), test::small_forest(), test::small_settings());
   test::train_on(relocaliser, test::office().size());
   relocaliser.relocalise(frame);
-  REQUIRE(count_stages(trace, "relocalise/hypotheses") > 0);
+  REQUIRE(count_stages(trace, "relocalise/trial") + count_stages(trace, "relocalise/hypotheses") > 0);
   return count_stages(trace, "relocalise/refine") > 0;
 }
 

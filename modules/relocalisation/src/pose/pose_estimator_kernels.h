@@ -58,8 +58,8 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
     const ScopedStage stage(context, "relocalise/correspondences");
     fill_pool<Executor>(context, query, place.leaf_modes, forest, static_cast<std::size_t>(num_samples), buffers.pool);
   };
-  const auto draw_and_cull = [&](const std::int32_t* given_up) {
-    const ScopedStage stage(context, "relocalise/hypotheses");
+  const auto draw_and_cull = [&](const char* name, const std::int32_t* given_up) {
+    const ScopedStage stage(context, name);
     draw_hypotheses(executor, buffers.pool.view(), plan, given_up, hypotheses);
     return cull(executor, plan, buffers);
   };
@@ -68,12 +68,12 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
   buffers.pool.num_filled = 0;
   fill(std::min(kFirstSamples, plan.pool_size));
   if (query.is_unfamiliar) {
-    draw_and_cull(nullptr);
+    draw_and_cull("relocalise/trial", nullptr);
     executor.for_each(1, GiveUpHopeless{buffers.pool.view(), plan.energy_truncation, hypotheses.view(), hypotheses.given_up.data()});
     if (has_given_up<Executor>(hypotheses)) return answer_none();
   }
   fill(plan.pool_size);
-  const std::size_t num_active = draw_and_cull(query.is_unfamiliar ? hypotheses.given_up.data() : nullptr);
+  const std::size_t num_active = draw_and_cull("relocalise/hypotheses", query.is_unfamiliar ? hypotheses.given_up.data() : nullptr);
   if (num_active == 0) return answer_none();
   {
     const ScopedStage stage(context, "relocalise/ransac");

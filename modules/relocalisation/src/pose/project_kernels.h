@@ -13,7 +13,7 @@ namespace foothold {
 struct DrawnPoints {
   Span<const RememberedPoint> points;
 
-  FOOTHOLD_HD static float min_supported(float num_points) { return 0.012F * num_points; }
+  FOOTHOLD_HD static float min_supported(float) { return 100.0F; }
   FOOTHOLD_HD std::size_t size() const { return points.size(); }
   FOOTHOLD_HD bool get(std::size_t i, Eigen::Vector3f& point_scene) const {
     const RememberedPoint& point = points[i];
@@ -52,7 +52,8 @@ struct AlignByProjection {
       add_point(pose, point_scene, reach_m, sums);
     }
     team.sum_all(sums);
-    if (sums[kNumSupported] < points.min_supported(sums[kNumValid])) return false;
+    const auto each = static_cast<float>(stride);  // stands for so many points
+    if (each * sums[kNumSupported] < points.min_supported(each * sums[kNumValid])) return false;
     float twist[6];
     if (team.lane() == 0 && solve_for_twist(sums, kDamping, twist)) state->scene_from_camera = perturbed(pose, twist);
     return true;
