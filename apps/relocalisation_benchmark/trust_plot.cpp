@@ -20,7 +20,7 @@ constexpr double kChartHeight = 420.0;
 constexpr double kBarHeight = 15.0;
 constexpr double kBarPitch = 21.0;
 constexpr double kNameWidth = 190.0;
-constexpr double kCountWidth = 70.0;
+constexpr double kCountWidth = 130.0;  ///< of "12345 / 123456"
 constexpr double kTextHeight = 10.0;
 constexpr Rgb8 kInk = {40, 40, 40};
 
