@@ -130,7 +130,7 @@ FOOTHOLD_HD inline bool is_same_pose(const SE3& a, const SE3& b, float distance_
          (a.rotation - b.rotation).squaredNorm() < 2.0F * angle_rad * angle_rad;
 }
 
-/// Gives up if the best hypothesis' energy says that it explains next to nothing. @pre They were culled.
+/// Gives up if the best hypothesis' energy says that it explains next to nothing. @pre It was scored by kCullSamples.
 struct GiveUpHopeless {
   CorrespondencePoolView pool;
   float truncation;

@@ -37,6 +37,7 @@ struct PoseAlgorithms {
 
  private:
   static std::size_t cull(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers);
+  static void refine_trial(const Executor& executor, const SearchPlan& plan, std::size_t num_active, PoseBuffers& buffers);
   static void preempt(const Executor& executor, const SearchPlan& plan, std::size_t num_active, PoseBuffers& buffers);
 };
 
@@ -68,7 +69,7 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
   buffers.pool.num_filled = 0;
   fill(std::min(kFirstSamples, plan.pool_size));
   if (query.is_unfamiliar) {
-    draw_and_cull("relocalise/trial", nullptr);
+    refine_trial(executor, plan, draw_and_cull("relocalise/trial", nullptr), buffers);
     executor.for_each(1, GiveUpHopeless{buffers.pool.view(), plan.energy_truncation, hypotheses.view(), hypotheses.given_up.data()});
     if (has_given_up<Executor>(hypotheses)) return answer_none();
   }
@@ -127,6 +128,20 @@ std::size_t PoseAlgorithms<Executor>::cull(const Executor& executor, const Searc
     sort_by_energy(executor, num_active, hypotheses);
   }
   return num_alive<Executor>(hypotheses.view(), num_active);
+}
+
+/// Refines the best few hypotheses by the samples that they were culled by.
+template <class Executor>
+void PoseAlgorithms<Executor>::refine_trial(const Executor& executor, const SearchPlan& plan, std::size_t num_active,
+                                            PoseBuffers& buffers) {
+  constexpr std::size_t kRefined = 8;  // (T)
+  const CorrespondencePoolView pool = buffers.pool.view();
+  Hypotheses& hypotheses = buffers.hypotheses;
+  num_active = std::min(num_active, kRefined);
+  if (num_active == 0) return;
+  refine(executor, pool, {std::min(kCullSamples, plan.pool_size), plan.round_iterations}, num_active, hypotheses, buffers.assignments);
+  score(executor, pool, {0, kCullSamples, true}, plan.energy_truncation, num_active, hypotheses);
+  sort_by_energy(executor, num_active, hypotheses);
 }
 
 /// Pre-emptive RANSAC: in each round more samples, better poses, fewer of them. Those that lose keep their places behind those that win.
