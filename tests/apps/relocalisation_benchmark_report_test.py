@@ -18,7 +18,8 @@ SCRIPTS = pathlib.Path(__file__).resolve().parents[2] / "scripts"
 ROOM = "synthetic:{}?frames=8&width=160&height=120"
 SCENES = ["--scene", ROOM.format("kitchen"), "--scene", ROOM.format("stairs"), "--settle", "2"]
 LOSS = ["loss", "--sequence", ROOM.format("kitchen"), "--method", "forest,ferns"]
-FAILURES = "wrong=synthetic:kitchen?frames=6&width=320&height=240,synthetic:office?frames=2&width=320&height=240"
+OFFICE = "synthetic:office?frames=300&width=320&height=240"
+FAILURES = f"wrong={OFFICE}@0:60,{OFFICE}@120:122"  # a desk like the one that was learnt
 EXPERIMENTS = {
     "rooms.adapt": ["adapt", *SCENES, "--method", "forest,ferns", "--forest", "data-free=random"],
     "rooms.novel": ["novel", *SCENES],

@@ -232,9 +232,8 @@ class Aligner {
     constexpr std::size_t kWidth = Executor::kVectorWidth > 1 ? 8 : 1;  // whose points a first-level cache holds
     const std::size_t num_items = alignment.surfaces.size() * static_cast<std::size_t>(num_trees_);
     executor_.for_each((num_items + kWidth - 1) / kWidth,
-                       FindNearPoints<kWidth>{reservoirs_, num_trees_, PoolPart{0, alignment.surfaces.size(), pool.leaves.data()},
-                                              alignment.surfaces.data(), num_items, 1000.0F * (kFirstReachM + kLargestMotionM),
-                                              alignment.state.data(), alignment.near.data()});
+                       FindNearPoints<kWidth>{reservoirs_, num_trees_, pool.first_part, alignment.surfaces.data(), num_items,
+                                              1000.0F * (kFirstReachM + kLargestMotionM), alignment.state.data(), alignment.near.data()});
   }
 
   void approach(int step, Alignment& alignment) const {

@@ -178,10 +178,14 @@ void draw_hypotheses(const Executor& executor, const CorrespondencePoolView& poo
   executor.sort(Span<std::uint64_t>(hypotheses.order), hypotheses.sort_buffer, 32, 64);
 }
 
+/// Whether a search may end early: where asking costs nothing. Elsewhere what is left of it runs, and does nothing.
+template <class Executor>
+inline constexpr bool kStopsEarly = Executor::kDevice == Device::kCpu;
+
 /// Whether the search was given up, where asking costs nothing; false elsewhere.
 template <class Executor>
 bool has_given_up(const Hypotheses& hypotheses) {
-  if constexpr (Executor::kDevice == Device::kCpu) return *hypotheses.given_up.data() != 0;
+  if constexpr (kStopsEarly<Executor>) return *hypotheses.given_up.data() != 0;
   return false;
 }
 
@@ -189,7 +193,7 @@ bool has_given_up(const Hypotheses& hypotheses) {
 /// @pre They are sorted by energy.
 template <class Executor>
 std::size_t num_alive(const HypothesesView& hypotheses, std::size_t num_slots) {
-  if constexpr (Executor::kDevice == Device::kCpu) {
+  if constexpr (kStopsEarly<Executor>) {
     while (num_slots > 0 && hypotheses.has_failed(num_slots - 1)) --num_slots;
   }
   return num_slots;

@@ -55,10 +55,13 @@ struct CorrespondencePool {
     modes.resize(leaves.size() * static_cast<std::size_t>(max_modes));
   }
 
-  CorrespondencePoolView view() const { return {pixels.data(), modes.data(), slots.data() + num_filled}; }
+  CorrespondencePoolView view() const { return first(num_filled); }
+  /// What stands for the first samples of those that were looked up.
+  CorrespondencePoolView first(std::size_t num_samples) const { return {pixels.data(), modes.data(), slots.data() + num_samples}; }
 
   Array<SampledPixel> sampled;
   std::size_t num_filled = 0;   ///< of the sampled pixels, those that were looked up
+  PoolPart first_part{};        ///< those that were looked up first
   Array<std::uint32_t> leaves;  ///< part by part, tree by tree
   Array<std::uint32_t> mode_counts;
   Array<std::uint32_t> first_modes;

@@ -138,6 +138,7 @@ void fill_pool(const Context& context, const PoseQuery& query, const LeafModesVi
   const auto num_trees = static_cast<std::size_t>(forest.num_trees);
   const Span<std::uint32_t> leaves(pool.leaves.data() + pool.num_filled * num_trees, num_new * num_trees);
   const PoolPart part{pool.num_filled, num_new, leaves.data()};
+  if (part.first == 0) pool.first_part = part;
   find_leaves(context, query.image, forest, Span<const SampledPixel>(pool.sampled.data() + part.first, num_new), leaves);
   executor.for_each(num_new, CountModes{leaf_modes, forest.num_trees, num_leaves, part, pool.mode_counts.data(), pool.has_modes.data()});
   const auto scan = [&](const Array<std::uint32_t>& counts, Array<std::uint32_t>& sums) {

@@ -36,8 +36,8 @@ struct PoseAlgorithms {
                        const SearchPlan& plan, PoseBuffers& buffers);
 
  private:
-  static std::size_t cull(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers);
-  static void refine_trial(const Executor& executor, const SearchPlan& plan, std::size_t num_active, PoseBuffers& buffers);
+  static void try_first(const Executor& executor, const SearchPlan& plan, const CorrespondencePoolView& pool, PoseBuffers& buffers);
+  static std::size_t cull(const Executor& executor, const SearchPlan& plan, const CorrespondencePoolView& pool, Hypotheses& hypotheses);
   static void preempt(const Executor& executor, const SearchPlan& plan, std::size_t num_active, PoseBuffers& buffers);
 };
 
@@ -55,32 +55,34 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
   const Executor executor(context);
   Hypotheses& hypotheses = buffers.hypotheses;
   const std::size_t num_candidates = buffers.candidates.size();
-  const auto fill = [&](int num_samples) {
+  CorrespondencePool& samples = buffers.pool;
+  const auto fill = [&](std::size_t num_samples) {
     const ScopedStage stage(context, "relocalise/correspondences");
-    fill_pool<Executor>(context, query, place.leaf_modes, forest, static_cast<std::size_t>(num_samples), buffers.pool);
-  };
-  const auto draw_and_cull = [&](const char* name, const std::int32_t* given_up) {
-    const ScopedStage stage(context, name);
-    draw_hypotheses(executor, buffers.pool.view(), plan, given_up, hypotheses);
-    return cull(executor, plan, buffers);
+    if (num_samples > samples.num_filled) fill_pool<Executor>(context, query, place.leaf_modes, forest, num_samples, samples);
   };
   const auto answer_none = [&] { std::fill(buffers.candidates.data(), buffers.candidates.data() + num_candidates, PoseCandidate{}); };
 
-  buffers.pool.num_filled = 0;
-  fill(std::min(kFirstSamples, plan.pool_size));
+  samples.num_filled = 0;
   if (query.is_unfamiliar) {
-    refine_trial(executor, plan, draw_and_cull("relocalise/trial", nullptr), buffers);
-    executor.for_each(1, GiveUpHopeless{buffers.pool.view(), plan.energy_truncation, hypotheses.view(), hypotheses.given_up.data()});
+    const std::size_t num_tried = std::min<std::size_t>(kFirstSamples, samples.sampled.size());
+    fill(kStopsEarly<Executor> ? num_tried : samples.sampled.size());
+    const ScopedStage stage(context, "relocalise/trial");
+    try_first(executor, plan, samples.first(num_tried), buffers);
     if (has_given_up<Executor>(hypotheses)) return answer_none();
   }
-  fill(plan.pool_size);
-  const std::size_t num_active = draw_and_cull("relocalise/hypotheses", query.is_unfamiliar ? hypotheses.given_up.data() : nullptr);
+  fill(samples.sampled.size());
+  const CorrespondencePoolView pool = samples.view();
+  std::size_t num_active = 0;
+  {
+    const ScopedStage stage(context, "relocalise/hypotheses");
+    draw_hypotheses(executor, pool, plan, query.is_unfamiliar ? hypotheses.given_up.data() : nullptr, hypotheses);
+    num_active = cull(executor, plan, pool, hypotheses);
+  }
   if (num_active == 0) return answer_none();
   {
     const ScopedStage stage(context, "relocalise/ransac");
     preempt(executor, plan, num_active, buffers);
   }
-  const CorrespondencePoolView pool = buffers.pool.view();
   if (plan.confronts_scene) {
     const ScopedStage stage(context, "relocalise/rank");
     draw_remembered_points(executor, place.reservoirs, plan.seed, buffers.ranking);
@@ -104,12 +106,29 @@ void PoseAlgorithms<Executor>::estimate(const Context& context, const PoseQuery&
   if (plan.confronts_scene) rejoin(executor, query, place.latest, buffers.alignment, buffers.candidates);
 }
 
+/// Finds out by a part of the pool whether hypotheses are worth drawing: draws some, and refines the best few by the samples that they were
+/// culled by.
+template <class Executor>
+void PoseAlgorithms<Executor>::try_first(const Executor& executor, const SearchPlan& plan, const CorrespondencePoolView& pool,
+                                         PoseBuffers& buffers) {
+  constexpr std::size_t kRefined = 8;  // (T)
+  Hypotheses& hypotheses = buffers.hypotheses;
+  draw_hypotheses(executor, pool, plan, nullptr, hypotheses);
+  const std::size_t num_refined = std::min(kRefined, cull(executor, plan, pool, hypotheses));
+  if (num_refined > 0) {
+    const int num_samples = std::min(kCullSamples, plan.pool_size);
+    refine(executor, pool, {num_samples, plan.round_iterations}, num_refined, hypotheses, buffers.assignments);
+    score(executor, pool, {0, num_samples, true}, plan.energy_truncation, num_refined, hypotheses);
+    sort_by_energy(executor, num_refined, hypotheses);
+  }
+  executor.for_each(1, GiveUpHopeless{pool, plan.energy_truncation, hypotheses.view(), hypotheses.given_up.data()});
+}
+
 /// Gives up all but the best hypotheses. Those that lose keep their places behind those that win.
 /// @return How many are left, where asking costs nothing; as many as may be left elsewhere.
 template <class Executor>
-std::size_t PoseAlgorithms<Executor>::cull(const Executor& executor, const SearchPlan& plan, PoseBuffers& buffers) {
-  const CorrespondencePoolView pool = buffers.pool.view();
-  Hypotheses& hypotheses = buffers.hypotheses;
+std::size_t PoseAlgorithms<Executor>::cull(const Executor& executor, const SearchPlan& plan, const CorrespondencePoolView& pool,
+                                           Hypotheses& hypotheses) {
   std::size_t num_active = num_alive<Executor>(hypotheses.view(), hypotheses.poses.size());
   const auto score_and_sort = [&](const ScoredSamples& samples) {
     score(executor, pool, samples, plan.energy_truncation, num_active, hypotheses);
@@ -128,20 +147,6 @@ std::size_t PoseAlgorithms<Executor>::cull(const Executor& executor, const Searc
     sort_by_energy(executor, num_active, hypotheses);
   }
   return num_alive<Executor>(hypotheses.view(), num_active);
-}
-
-/// Refines the best few hypotheses by the samples that they were culled by.
-template <class Executor>
-void PoseAlgorithms<Executor>::refine_trial(const Executor& executor, const SearchPlan& plan, std::size_t num_active,
-                                            PoseBuffers& buffers) {
-  constexpr std::size_t kRefined = 8;  // (T)
-  const CorrespondencePoolView pool = buffers.pool.view();
-  Hypotheses& hypotheses = buffers.hypotheses;
-  num_active = std::min(num_active, kRefined);
-  if (num_active == 0) return;
-  refine(executor, pool, {std::min(kCullSamples, plan.pool_size), plan.round_iterations}, num_active, hypotheses, buffers.assignments);
-  score(executor, pool, {0, kCullSamples, true}, plan.energy_truncation, num_active, hypotheses);
-  sort_by_energy(executor, num_active, hypotheses);
 }
 
 /// Pre-emptive RANSAC: in each round more samples, better poses, fewer of them. Those that lose keep their places behind those that win.
