@@ -7,7 +7,7 @@
 #   scripts/check_all.sh [FUZZ-MINUTES]      default: 20
 #
 # The logs are build/check_all/STEP.txt. What the sanitizers find in libraries of others is suppressed, with the reason, in
-# tests/openni/sanitizer_suppressions.h.
+# tests/sanitizers.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 

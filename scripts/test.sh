@@ -15,4 +15,4 @@ preset=ci
 source scripts/preset_arguments.sh
 
 scripts/build.sh "$preset" "${options[@]}"
-exec ctest --preset "$preset" --parallel 2 --timeout 300 --no-tests=error "${others[@]}"
+exec ctest --preset "$preset" "${others[@]}"

@@ -6,8 +6,6 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "sanitizer_suppressions.h"
-
 int main(int /*argc*/, char** argv) {
   if (openni::OpenNI::initialize() != openni::STATUS_OK) return 2;
   static auto* device = new openni::Device;  // never destroyed

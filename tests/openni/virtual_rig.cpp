@@ -8,7 +8,6 @@
 #include <cstdlib>
 
 #include "pattern_sequence.h"
-#include "sanitizer_suppressions.h"
 #include "support/catch.h"
 
 namespace foothold::test {

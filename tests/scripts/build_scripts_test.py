@@ -26,6 +26,7 @@ add_custom_target(relocalisation_benchmark COMMAND ${CMAKE_COMMAND} -E copy ${CM
 enable_testing()
 add_test(NAME one COMMAND ${CMAKE_COMMAND} -E echo one)
 add_test(NAME two COMMAND ${CMAKE_COMMAND} -E echo two)
+add_test(NAME environment COMMAND ${CMAKE_COMMAND} -E environment)
 """
 
 # Two libraries of one folder, one of which may compile its sources as one.
@@ -108,6 +109,16 @@ class TestTest(ScriptTest):
         self.assertIn("100% tests passed, 0 tests failed out of 1", output)
         self.run_script("test.sh")
         self.assertEqual(self.option("FOOTHOLD_CUDA", "ci"), "OFF")
+
+    def test_no_test_to_run_is_an_error(self):
+        self.run_script("test.sh", "--tests-regex", "three", status=8)
+
+    def test_sanitizers_know_what_is_suppressed(self):
+        for preset, variable, name in [("asan", "LSAN_OPTIONS", "leaks.txt"), ("tsan", "TSAN_OPTIONS", "races.txt")]:
+            output = self.run_script("test.sh", preset, "--tests-regex", "environment", "--verbose")
+            file = re.search(f"{variable}=.*suppressions='(.*)'", output)[1]
+            self.assertEqual(file, str(self.folder / "tests" / "sanitizers" / name))
+            self.assertTrue((REPOSITORY / "tests" / "sanitizers" / name).exists())
 
 
 class ContinuousIntegrationTest(ScriptTest):
