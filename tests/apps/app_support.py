@@ -2,6 +2,7 @@
 # Copyright (c) 2026 The Foothold authors
 """Runs an app as its users do, and makes small recordings for it. Needs nothing but Python."""
 
+import os
 import pathlib
 import struct
 import subprocess
@@ -11,6 +12,7 @@ import unittest
 import zlib
 
 USER_ERROR = 2
+SANITIZERS = os.environ.get("FOOTHOLD_SANITIZE", "")  # that the apps are compiled with
 
 
 def write_png(path, width, height, rows, bits, channels):
