@@ -37,7 +37,7 @@ check tests .ci/run                                # with CUDA where nvcc is, fa
 check release scripts/build.sh release             # modules and apps as users build them
 check tidy scripts/tidy.sh
 check asan scripts/test.sh asan                    # apps and the virtual camera, too
-check tsan scripts/test.sh tsan --tests-regex '^(base|fusion|relocalisation|reconstruction|openni|apps|soak)/'
+check tsan scripts/test.sh tsan --tests-regex '^(base|api|fusion|relocalisation|reconstruction|openni|app_view|apps|soak)/'
 check fuzz scripts/fuzz.sh "$fuzz_minutes"
 
 if [[ ${#failed[@]} -gt 0 ]]; then
