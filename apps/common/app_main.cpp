@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -21,10 +22,11 @@
 namespace foothold::apps {
 namespace {
 
-volatile std::sig_atomic_t interrupt_requested = 0;
+std::atomic<bool> interrupt_requested = false;  // atomic, since any thread may be the one that a signal interrupts
+static_assert(std::atomic<bool>::is_always_lock_free, "a signal's handler must not lock");
 
 void on_interrupt(int signal) {
-  interrupt_requested = 1;
+  interrupt_requested = true;
   std::signal(signal, SIG_DFL);  // the second Ctrl-C means it
 }
 
@@ -97,7 +99,7 @@ int exit_code_of(const std::function<int()>& body) {
 int parse_and_run(CommandLine& app, int argc, char** argv, const std::function<int()>& body) {
   const std::optional<int> exit_code = app.parse(argc, argv);
   if (exit_code.has_value()) return *exit_code == 0 ? kSuccess : kUserError;
-  interrupt_requested = 0;
+  interrupt_requested = false;
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, on_interrupt);
   if (std::signal(SIGHUP, on_interrupt) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // nohup means it
   return body();
@@ -112,7 +114,7 @@ int run_app(CommandLine& app, int argc, char** argv, const std::function<int()>&
   return finish_stdout() || code != kSuccess ? code : kUserError;
 }
 
-bool interrupted() { return interrupt_requested != 0; }
+bool interrupted() { return interrupt_requested; }
 
 void add_device_options(CommandLine& app, DeviceOptions& options) {
   app.add_option("--device", options.device, "Where to compute: cpu, cuda, or cuda:N for the GPU of that index")
