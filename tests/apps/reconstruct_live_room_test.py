@@ -16,7 +16,7 @@ import app_support
 import live_support
 
 SIZE = (320, 240)
-FPS = 10  # slow enough for a busy machine to see most frames
+FPS = 2 if app_support.SANITIZERS else 10  # slow enough for a busy machine, or an instrumented program, to see most frames
 MODE = ("--mode", f"{SIZE[0]}x{SIZE[1]}@{FPS}")
 ROOM = f"synthetic:kitchen?frames=110&width={SIZE[0]}&height={SIZE[1]}"
 NUM_FRAMES = 130
