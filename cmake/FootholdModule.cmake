@@ -6,7 +6,7 @@ target_compile_options(foothold_flags INTERFACE
   # Results must not depend on whether a compiler fuses a multiplication with an addition: bodies that want it say std::fma.
   $<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off -fno-math-errno -fno-trapping-math>
   $<$<COMPILE_LANGUAGE:CUDA>:--fmad=false --expt-relaxed-constexpr -diag-suppress=20012 -Xcompiler=-Wall,-Wextra,-ffp-contract=off>)
-if(FOOTHOLD_CPU AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64" OR FOOTHOLD_CPU STREQUAL "native")
+if(FOOTHOLD_CPU)
   target_compile_options(foothold_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-march=${FOOTHOLD_CPU}>)
 endif()
 if(FOOTHOLD_WERROR)

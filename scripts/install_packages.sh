@@ -4,22 +4,28 @@
 #
 # Installs what Foothold needs from Debian's or Ubuntu's packages. Does nothing, at once, when all of it is there.
 #
-#   scripts/install_packages.sh [--developer]
+#   scripts/install_packages.sh [--developer | --aarch64]
 #
 # --developer adds clang for the fuzz targets, and clang-format-14, clang-tidy-14, Doxygen and Valgrind, which checks use where present.
+# --aarch64 adds a cross-compiler and QEMU for 64-bit Arm, and unpacks the libraries for it into build/aarch64-sysroot.
 # Needs root or sudo only if something is missing. CUDA is optional and never installed by this script.
 set -euo pipefail
 
-packages=(
-  build-essential cmake ninja-build ccache pkgconf                          # to build
+libraries=(                                                                 # also for other processors
   libeigen3-dev libtbb-dev                                                  # the libraries
   libopencv-dev libopenexr-dev zlib1g-dev nlohmann-json3-dev libcli11-dev libopenni2-dev  # reading sequences, cameras, and the apps
-  catch2 python3 xvfb xauth locales                                         # the tests; Python also writes the report
+  catch2                                                                    # the tests
+)
+packages=(
+  build-essential cmake ninja-build ccache pkgconf                          # to build
+  "${libraries[@]}"
+  python3 xvfb xauth locales                                                # the tests; Python also writes the report
 )
 case "${1:-}" in
   "") ;;
   --developer) packages+=(clang clang-format-14 clang-tidy-14 doxygen valgrind) ;;
-  *) echo "usage: $0 [--developer]; got '$1'" >&2; exit 2 ;;
+  --aarch64) packages+=(g++-aarch64-linux-gnu qemu-user mmdebstrap) ;;
+  *) echo "usage: $0 [--developer | --aarch64]; got '$1'" >&2; exit 2 ;;
 esac
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
@@ -32,7 +38,26 @@ installed=" $(dpkg-query --show --showformat='${Package}:${db:Status-Status} ' "
 for package in "${packages[@]}"; do
   [[ $installed == *" $package:installed "* ]] || missing+=("$package")
 done
-[[ ${#missing[@]} -eq 0 ]] && exit 0
+
+# An arm64 system of the libraries alone, unpacked and not installed: this machine's packages stay as they are.
+unpack_aarch64() {
+  local sysroot
+  sysroot=$(dirname "$0")/../build/aarch64-sysroot
+  [[ -d $sysroot ]] && return
+  echo "install_packages: unpacking libraries for 64-bit Arm into build/aarch64-sysroot (a few minutes, 1 GB)"
+  mkdir -p "$(dirname "$sysroot")"
+  rm -rf "$sysroot.part"
+  # Nothing is run of it, so that root is not needed; two links are what scripts of packages would make.
+  mmdebstrap --quiet --mode=chrootless --variant=extract --architectures=arm64 --include="$(IFS=, && echo "${libraries[*]}")" \
+    --extract-hook='ln -s blas/libblas.so.3 lapack/liblapack.so.3 "$1/usr/lib/aarch64-linux-gnu"' \
+    "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$sysroot.part"
+  mv "$sysroot.part" "$sysroot"
+}
+finish() {
+  [[ ${1:-} != --aarch64 ]] || unpack_aarch64
+  exit 0
+}
+[[ ${#missing[@]} -eq 0 ]] && finish "$@"
 
 as_root=()
 if [[ $(id -u) -ne 0 ]]; then
@@ -58,3 +83,4 @@ if ! install >"$log" 2>&1; then
     exit 1
   fi
 fi
+finish "$@"

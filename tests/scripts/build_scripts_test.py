@@ -121,6 +121,17 @@ class TestTest(ScriptTest):
             self.assertTrue((REPOSITORY / "tests" / "sanitizers" / name).exists())
 
 
+class Aarch64Test(ScriptTest):
+    def test_its_libraries_are_asked_for_and_its_preset_is_tested(self):
+        (self.folder / "cmake").mkdir()
+        shutil.copy(REPOSITORY / "cmake/aarch64.cmake", self.folder / "cmake")
+        self.write_program("scripts/install_packages.sh", 'echo "$@" >>installed')
+        output = self.run_script("test_aarch64.sh", "-DFOOTHOLD_IO=OFF", "--tests-regex", "two")
+        self.assertIn("100% tests passed, 0 tests failed out of 1", output)
+        self.assertEqual(self.option("FOOTHOLD_IO", "aarch64"), "OFF")
+        self.assertIn("--aarch64", (self.folder / "installed").read_text().splitlines())
+
+
 class ContinuousIntegrationTest(ScriptTest):
     def test_cuda_is_compiled_where_nvcc_is(self):
         self.write_program("fake/nvcc", "exit 0")
