@@ -32,7 +32,8 @@ constexpr int kMinedLevel = 3;  // of the pyramid: 2^3 = kMinedDivisor
 
 Eigen::Vector3f random_direction(Random& random) {
   for (;;) {
-    const Eigen::Vector3f v(random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F), random.uniform(-1.0F, 1.0F));
+    Eigen::Vector3f v;  // drawn in statements: the order of arguments is the compiler's
+    for (const int axis : {2, 1, 0}) v[axis] = random.uniform(-1.0F, 1.0F);
     const float norm = v.norm();
     if (norm > 0.1F && norm <= 1.0F) return v / norm;
   }
@@ -40,8 +41,10 @@ Eigen::Vector3f random_direction(Random& random) {
 
 SE3 perturb(const SE3& world_from_camera, const StartKind& kind, Random& random) {
   Tangent6 tangent;
-  tangent.head<3>() = random_direction(random) * (random.uniform() * kind.rotation_deg / kDegPerRad);
-  tangent.tail<3>() = random_direction(random) * (random.uniform() * kind.translation_m);
+  const float angle_rad = random.uniform() * kind.rotation_deg / kDegPerRad;
+  tangent.head<3>() = random_direction(random) * angle_rad;
+  const float distance_m = random.uniform() * kind.translation_m;
+  tangent.tail<3>() = random_direction(random) * distance_m;
   SE3 result = world_from_camera * se3_exp(tangent);
   result.rotation = nearest_rotation(result.rotation);
   return result;

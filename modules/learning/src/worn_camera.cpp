@@ -128,8 +128,11 @@ void add_strangers(RgbdFrame& frame, float size, Random& random) {
   Image<float>& depth = frame.depth;
   const auto width = static_cast<float>(depth.width());
   for (std::uint32_t count = random.below(4); count > 0; --count) {
-    const Eigen::Vector2f centre(width * random.uniform(), static_cast<float>(depth.height()) * random.uniform());
-    const Eigen::Vector2f radius = 0.5F * size * width * Eigen::Vector2f(random.uniform(0.2F, 1.0F), random.uniform(0.2F, 1.0F));
+    // Drawn in statements: the order of arguments is the compiler's.
+    const float centre_v = static_cast<float>(depth.height()) * random.uniform();
+    const Eigen::Vector2f centre(width * random.uniform(), centre_v);
+    const float tallness = random.uniform(0.2F, 1.0F);
+    const Eigen::Vector2f radius = 0.5F * size * width * Eigen::Vector2f(random.uniform(0.2F, 1.0F), tallness);
     const float nearer = random.uniform(0.6F, 0.95F);
     const float behind_m = depth(static_cast<int>(centre.x()), static_cast<int>(centre.y()));
     if (behind_m <= 0.0F) continue;

@@ -156,14 +156,18 @@ class Rearrangement {
     switch (choices_.below(6)) {
       case 0:
         return office_chair(b, fabric(colour), choices_.seed());
-      case 1:
-        return stool(b, choices_.between(0.4F, 0.6F), fabric(colour), wood(choices_.timber()));
+      case 1: {
+        const Material timber = wood(choices_.timber());  // drawn first: the order of arguments is the compiler's
+        return stool(b, choices_.between(0.4F, 0.6F), fabric(colour), timber);
+      }
       case 2:
         return bin(b, colour);
       case 3:
         return plant(b, choices_.between(0.5F, 0.8F), colour, choices_);
-      case 4:
-        return wooden_chair(b, wood(choices_.timber()), fabric(colour), choices_.seed());
+      case 4: {
+        const std::uint32_t seed = choices_.seed();
+        return wooden_chair(b, wood(choices_.timber()), fabric(colour), seed);
+      }
       default:
         return box_stack(b, 1 + choices_.below(2), choices_);
     }

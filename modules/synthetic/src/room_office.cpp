@@ -14,7 +14,8 @@ void desk_with_chair(const RoomBuilder& b, Choices& choices) {
   monitor(b.at(-0.2F, -0.22F, kDeskZ, 6.0F), 0.52F, 50);
   keyboard(b.at(-0.2F, -0.52F, kDeskZ));
   office_chair(b.at(-0.15F, -1.05F, 0.0F, choices.between(-30.0F, 30.0F)), fabric({0.16F, 0.2F, 0.32F}), 60);
-  mug(b.at(0.18F, choices.between(-0.5F, -0.3F), kDeskZ), choices.colour());
+  const Colour colour = choices.colour();
+  mug(b.at(0.18F, choices.between(-0.5F, -0.3F), kDeskZ), colour);
   clutter(b.at(0.46F, -0.35F, kDeskZ), 0.5F, 0.35F, 2, choices);
   b.piece().at(0.1F, -0.6F, kDeskZ, choices.between(-20.0F, 20.0F)).sheet({0.0F, 0.0F, 0.002F}, 0.21F, 0.297F, paper());
   b.target({0.0F, -0.35F, kDeskZ + 0.1F});

@@ -10,31 +10,48 @@ namespace {
 
 using Eigen::Vector3f;
 
+// What is drawn at random is drawn in statements of its own: a call's arguments are evaluated in an order that compilers choose.
+
+Material any_wood(float widest_plank_m, Choices& choices) {
+  const float contrast = choices.between(0.3F, 0.7F);
+  const float plank_m = choices.between(0.08F, widest_plank_m);
+  return wood(choices.timber(), plank_m, contrast);
+}
+
 Material wall_material(Choices& choices) {
   const Colour colour = choices.muted();
   switch (choices.below(8)) {
     case 0:
       return bricks(0.8F * choices.colour(), colour);
-    case 1:
-      return tiles(colour, 0.7F * colour, choices.between(0.1F, 0.3F), choices.between(0.1F, 0.4F));
+    case 1: {
+      const float contrast = choices.between(0.1F, 0.4F);
+      return tiles(colour, 0.7F * colour, choices.between(0.1F, 0.3F), contrast);
+    }
     case 2:
       return stripes(colour, 0.8F * colour, choices.between(0.03F, 0.2F), 0.4F);
-    case 3:
-      return wood(choices.timber(), choices.between(0.08F, 0.2F), 0.4F);
+    case 3: {
+      const float plank_m = choices.between(0.08F, 0.2F);
+      return wood(choices.timber(), plank_m, 0.4F);
+    }
     case 4:
       return plain(choices.colour());
-    default:
-      return plaster(colour, choices.between(0.15F, 0.6F), choices.between(0.4F, 1.4F));
+    default: {
+      const float scale_m = choices.between(0.4F, 1.4F);
+      return plaster(colour, choices.between(0.15F, 0.6F), scale_m);
+    }
   }
 }
 
 Material floor_material(Choices& choices) {
-  const Colour colour = choices.muted() * choices.between(0.4F, 1.0F);
+  const float brightness = choices.between(0.4F, 1.0F);
+  const Colour colour = choices.muted() * brightness;
   switch (choices.below(6)) {
     case 0:
       return tiles(colour, 0.6F * colour, choices.between(0.2F, 0.6F), 0.3F);
-    case 1:
-      return checker(colour, 0.6F * choices.colour(), choices.between(0.15F, 0.4F));
+    case 1: {
+      const float square_m = choices.between(0.15F, 0.4F);
+      return checker(colour, 0.6F * choices.colour(), square_m);
+    }
     case 2:
       return stripes(colour, 0.6F * colour, choices.between(0.02F, 0.08F));
     case 3:
@@ -42,25 +59,22 @@ Material floor_material(Choices& choices) {
     case 4:
       return speckle(colour, 0.5F * colour, choices.between(0.4F, 1.0F));
     default:
-      return wood(choices.timber(), choices.between(0.08F, 0.25F), choices.between(0.3F, 0.7F));
+      return any_wood(0.25F, choices);
   }
 }
 
 Material furniture_material(Choices& choices) {
-  switch (choices.below(3)) {
-    case 0:
-      return plain(choices.colour(), choices.between(0.1F, 0.5F));
-    case 1:
-      return plain(choices.muted(), choices.between(0.1F, 0.5F));
-    default:
-      return wood(choices.timber(), choices.between(0.08F, 0.5F), choices.between(0.3F, 0.7F));
-  }
+  const int kind = choices.below(3);
+  if (kind == 2) return any_wood(0.5F, choices);
+  const float contrast = choices.between(0.1F, 0.5F);
+  return plain(kind == 0 ? choices.colour() : choices.muted(), contrast);
 }
 
 Material cover_material(Choices& choices) {
   const Colour colour = choices.colour();
-  return choices.chance(0.3F) ? stripes(colour, choices.colour(), choices.between(0.02F, 0.08F))
-                              : fabric(colour, choices.between(0.3F, 0.9F));
+  if (!choices.chance(0.3F)) return fabric(colour, choices.between(0.3F, 0.9F));
+  const float stripe_m = choices.between(0.02F, 0.08F);
+  return stripes(colour, choices.colour(), stripe_m);
 }
 
 void chair(const RoomBuilder& b, Choices& choices) {
@@ -73,12 +87,14 @@ void chair(const RoomBuilder& b, Choices& choices) {
 void workplace(const RoomBuilder& b, float width, Choices& choices) {
   constexpr float kDeskZ = 0.73F;
   const Material top = furniture_material(choices);
-  desk(b, width, top, furniture_material(choices), choices.seed());
+  const std::uint32_t seed = choices.seed();
+  desk(b, width, top, furniture_material(choices), seed);
   const int num_monitors = 1 + choices.below(2);
   for (int i = 0; i < num_monitors; ++i) {
     const float x = -0.3F * width + 0.58F * static_cast<float>(i);
     const float size = choices.between(0.42F, 0.56F);
-    monitor(b.at(x, -0.2F, kDeskZ, choices.between(-15.0F, 15.0F)), size, choices.seed());
+    const std::uint32_t screen_seed = choices.seed();
+    monitor(b.at(x, -0.2F, kDeskZ, choices.between(-15.0F, 15.0F)), size, screen_seed);
   }
   keyboard(b.at(-0.2F, -0.5F, kDeskZ));
   clutter(b.at(0.3F * width, -0.4F, kDeskZ), 0.35F * width, 0.35F, 2 + choices.below(2), choices);
@@ -100,7 +116,8 @@ void dresser(const RoomBuilder& b, float width, Choices& choices) {
   const float depth = choices.between(0.45F, 0.75F);
   const float height = choices.between(0.5F, 0.95F);
   const Material top = furniture_material(choices);
-  table(b, width, depth, height, top, choices.chance(0.5F) ? top : furniture_material(choices), choices.seed());
+  const std::uint32_t seed = choices.seed();
+  table(b, width, depth, height, top, choices.chance(0.5F) ? top : furniture_material(choices), seed);
   clutter(b.at(0.0F, -0.5F * depth, height), 0.9F * width, 0.5F * depth, 2 + choices.below(4), choices);
   if (choices.chance(0.5F)) box_stack(b.at(0.0F, -0.3F, 0.0F), 1, choices);
 }
@@ -108,10 +125,14 @@ void dresser(const RoomBuilder& b, float width, Choices& choices) {
 Material any_material(Choices& choices) {
   const Colour colour = choices.colour();
   switch (choices.below(6)) {
-    case 0:
-      return checker(colour, choices.colour(), choices.between(0.03F, 0.12F));
-    case 1:
-      return stripes(colour, choices.colour(), choices.between(0.015F, 0.08F));
+    case 0: {
+      const float square_m = choices.between(0.03F, 0.12F);
+      return checker(colour, choices.colour(), square_m);
+    }
+    case 1: {
+      const float stripe_m = choices.between(0.015F, 0.08F);
+      return stripes(colour, choices.colour(), stripe_m);
+    }
     case 2:
       return poster(colour, choices.colour());
     case 3:
@@ -158,7 +179,8 @@ void stand_something(const RoomBuilder& b, float width, Choices& choices) {
     }
     case 1: {
       const float height = choices.between(1.2F, 2.1F);
-      return wardrobe(b, width - 0.1F, height, furniture_material(choices), choices.seed());
+      const std::uint32_t seed = choices.seed();
+      return wardrobe(b, width - 0.1F, height, furniture_material(choices), seed);
     }
     case 2:
     case 3:
@@ -233,7 +255,8 @@ void furnish_middle(const RoomBuilder& world, Choices& choices) {
   const float depth = choices.between(0.6F, 0.9F);
   const float height = choices.between(0.4F, 0.76F);
   const Material top = furniture_material(choices);
-  table(b.at(0.0F, 0.5F * depth, 0.0F), width, depth, height, top, furniture_material(choices), choices.seed());
+  const std::uint32_t seed = choices.seed();
+  table(b.at(0.0F, 0.5F * depth, 0.0F), width, depth, height, top, furniture_material(choices), seed);
   clutter(b.at(0.0F, 0.0F, height), 0.85F * width, 0.5F * depth, 3 + choices.below(4), choices);
   const Material rug =
       choices.chance(0.5F) ? stripes(choices.colour(), {0.7F, 0.65F, 0.6F}, 0.08F) : checker(choices.colour(), {0.4F, 0.35F, 0.3F}, 0.2F);

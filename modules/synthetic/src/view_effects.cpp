@@ -28,7 +28,9 @@ constexpr float kFarthestPerson_m = 3.5F;
 /// A person in a frame whose z points up, who stands at the origin.
 void stand_person(const RoomBuilder& b, Choices& choices) {
   const Colour skin = Colour(0.85F, 0.65F, 0.52F) * choices.between(0.4F, 1.0F);
-  const Material shirt = choices.chance(0.5F) ? stripes(choices.colour(), choices.colour(), 0.05F) : fabric(choices.colour());
+  const bool is_striped = choices.chance(0.5F);
+  const Colour colour = choices.colour();
+  const Material shirt = is_striped ? stripes(choices.colour(), colour, 0.05F) : fabric(colour);
   const Material trousers = fabric(choices.colour() * 0.7F);
   b.sphere({0.0F, 0.0F, 1.62F}, 0.11F, plain(skin), 1);
   b.cylinder({0.0F, 0.0F, 1.42F}, 0.06F, 0.12F, plain(skin), 2);
