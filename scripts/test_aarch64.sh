@@ -12,4 +12,4 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 scripts/install_packages.sh --aarch64
-exec scripts/test.sh aarch64 --timeout 3600 "$@"
+exec scripts/test.sh aarch64 "$@"
