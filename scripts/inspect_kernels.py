@@ -171,7 +171,7 @@ def label_of(mangled):
     if ours:
         team, arguments = ours.groups()
         body = re.sub(r"^(?:[\w:]+::)?\w+(?:Scratch|Shared)\w*, ", "", arguments) if team else arguments
-        return False, re.sub(r"<CudaExecutor>|\(int\)|\(Device\)|\s+$", "", body).strip(), "team" if team else "item"
+        return False, re.sub(r"<CudaExecutor>|\(int\)|\(Device\)|\(IcpResiduals\)|\s+$", "", body).strip(), "team" if team else "item"
     library = re.search(r"(Device\w+Kernel|EmptyKernel|static_kernel)", name)
     short = library.group(1) if library else re.sub(r"\(.*", "", name.replace("(anonymous namespace)::", "")).split("::")[-1]
     return "cub" in name, short, "library" if "cub" in name else "item"

@@ -149,6 +149,25 @@ TEST_CASE("CUDA: tracking gives the CPU's poses and measures") {
   }
 }
 
+TEST_CASE("CUDA: tracking by depth and greys gives the CPU's poses") {
+  const TwoViews views;
+  const SE3& start = views.camera.world_from_camera;
+  Random random = test::test_random();
+  const RgbdFrame frame = test::render(test::Scene{}, start * test::random_motion(random, 0.03F, 0.02F), 160, 120);
+  FrameUploader uploader(views.device);
+  const auto track = [&](const Context& context, const Frame& seen, const SurfaceMap& map) {
+    IcpTracker tracker(context, {2, 0});
+    tracker.set_frame(seen);
+    tracker.align_all(map, Array<SE3>(context.memory(), Span<const SE3>(&start, 1)), IcpResiduals::kDepthAndGrey);
+    return tracker.world_from_cameras().to_host(context).front();
+  };
+  const SE3 expected = track(views.host, frame.view(), views.expected);
+  const SE3 actual = track(views.device, uploader.upload(frame.view()), views.actual);
+  REQUIRE(translation_distance_m(expected, *frame.world_from_camera) < 0.005F);
+  REQUIRE(translation_distance_m(actual, expected) < test::kPoseTolerance_m);
+  REQUIRE(rotation_distance_rad(actual, expected) < test::kPoseTolerance_rad);
+}
+
 TEST_CASE("CUDA: comparing views finds the CPU's agreement") {
   const RgbdFrame frame = test::render(test::Scene{}, test::pose_on_arc(0.45F), 160, 120);
   std::vector<ViewAgreement> agreements;

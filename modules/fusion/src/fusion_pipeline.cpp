@@ -137,23 +137,18 @@ void FusionPipeline::follow(const Frame& frame, bool usable, bool may_track, Fus
 
 void FusionPipeline::track(const Frame& frame, Sighting& sighting, FusionFrameResult& result) {
   const Stopwatch watch;
-  // All is asked for before the host waits for it, once.
   guess_.assign(context_, Span<const SE3>(&world_from_camera_, 1));
   icp_.set_frame(frame);
-  icp_.align_all(rendering_, guess_);
   comparer_.set_frame(frame);
-  comparer_.compare_all(rendering_, icp_.world_from_cameras());
-  HostReads reads;
-  icp_.queue_results(reads);
-  comparer_.queue_results(reads);
-  reads.wait(context_);
-  const TrackingResult tracked = icp_.results().front();
+  ViewAgreement agreement;
+  TrackingResult tracked = align(IcpResiduals::kDepth, agreement);
+  if (IcpTracker::needs_greys(rendering_, tracked)) tracked = align(IcpResiduals::kDepthAndGrey, agreement);
   const TrackingGrade grade = grade_tracking(tracked.measures);
   result.quality = grade.quality;
   result.quality_score = grade.score;
   result.confidence = grade.probability;
   if (grade.quality != TrackingQuality::kFailed) {
-    result.agreement = comparer_.results().front();
+    result.agreement = agreement;
     const RefinedPose view = refiner_.rate(tracked.measures, result.agreement);
     result.confidence = std::min(result.confidence, view.probability);
     if (!is_near(tracked.world_from_camera, world_from_camera_, settings_.max_motion_m, settings_.max_motion_deg) ||
@@ -167,6 +162,18 @@ void FusionPipeline::track(const Frame& frame, Sighting& sighting, FusionFrameRe
   sighting.tracked = result.quality;
   sighting.tracked_world_from_camera = tracked.world_from_camera;
   result.track_ms = watch.elapsed_ms();
+}
+
+/// Aligns the frame with the rendering and compares the two. All is asked for before the host waits for it, once.
+TrackingResult FusionPipeline::align(IcpResiduals residuals, ViewAgreement& agreement) {
+  icp_.align_all(rendering_, guess_, residuals);
+  comparer_.compare_all(rendering_, icp_.world_from_cameras());
+  HostReads reads;
+  icp_.queue_results(reads);
+  comparer_.queue_results(reads);
+  reads.wait(context_);
+  agreement = comparer_.results().front();
+  return icp_.results().front();
 }
 
 /// Asks the relocaliser, and the map whether to believe it; neither about a frame without depth.

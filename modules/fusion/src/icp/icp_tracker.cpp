@@ -33,6 +33,7 @@ void IcpTracker::set_frame(const Frame& frame) {
   FOOTHOLD_EXPECTS(frame.depth.memory == context_.memory());
   const ScopedStage stage(context_, "fusion/pyramid");
   Scratch& scratch = *scratch_;
+  scratch.frame = frame;
   scratch.levels[0] = {frame.depth, frame.calibration.depth};
   while (scratch.depths_m.size() < static_cast<std::size_t>(levels_.coarsest)) scratch.depths_m.emplace_back(context_.memory());
   for (int l = 1; l <= levels_.coarsest; ++l) {
@@ -74,11 +75,13 @@ bool log_determinant(const Eigen::Matrix<double, 6, 6>& hessian, double count, f
 
 /// The unit translation, in the rendering's frame, whose cost grows least when rotation minimises it: the eigenvector of the smallest
 /// eigenvalue of H's Schur complement S = H_tt - H_rt^T H_rr^-1 H_rt.
-Eigen::Vector3f loosest_translation(const Eigen::Matrix<double, 6, 6>& hessian) {
+/// @param hold  Output: that eigenvalue over the sum of weights, which is the trace of H_tt.
+Eigen::Vector3f loosest_translation(const Eigen::Matrix<double, 6, 6>& hessian, float& hold) {
   const Eigen::Matrix3d coupling = hessian.topRightCorner<3, 3>();
   const Eigen::Matrix3d rotation = hessian.topLeftCorner<3, 3>();
   const Eigen::Matrix3d complement = hessian.bottomRightCorner<3, 3>() - coupling.transpose() * rotation.ldlt().solve(coupling);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(complement);  // eigenvalues rise
+  hold = static_cast<float>(solver.eigenvalues()[0] / hessian.bottomRightCorner<3, 3>().trace());
   return solver.eigenvectors().col(0).cast<float>();
 }
 
@@ -100,7 +103,7 @@ TrackingResult summarise(const IcpState& state, const SE3& world_from_camera, do
   const Eigen::Matrix<double, 6, 6> hessian = hessian_of(state);
   measures.well_posed =
       log_determinant(hessian, num_total, measures.log_det_total) && log_determinant(hessian, num_valid, measures.log_det_valid);
-  if (measures.well_posed) result.loosest_world = state.world_from_model.rotation * loosest_translation(hessian);
+  if (measures.well_posed) result.loosest_world = state.world_from_model.rotation * loosest_translation(hessian, result.hold);
   if (num_valid > 0.0) {
     const double num_counted = std::max(num_mapped, kLeastMappedPart * num_valid);
     measures.inlier_fraction = static_cast<float>(num_inliers / num_counted);
@@ -136,20 +139,32 @@ void IcpTracker::make_surface(SurfaceMap& surface) const {
 
 TrackingResult IcpTracker::track(const SurfaceMap& model, const SE3& guess_world_from_camera) {
   scratch_->guess.assign(context_, Span<const SE3>(&guess_world_from_camera, 1));
-  align_all(model, scratch_->guess);
-  HostReads reads;
-  queue_results(reads);
-  reads.wait(context_);
-  return results().front();
+  const auto align = [&](IcpResiduals residuals) {
+    align_all(model, scratch_->guess, residuals);
+    HostReads reads;
+    queue_results(reads);
+    reads.wait(context_);
+    return results().front();
+  };
+  const TrackingResult result = align(IcpResiduals::kDepth);
+  return needs_greys(model, result) ? align(IcpResiduals::kDepthAndGrey) : result;
 }
 
-void IcpTracker::align_all(const SurfaceMap& models, const Array<SE3>& guesses_world_from_camera) {
+bool IcpTracker::needs_greys(const SurfaceMap& model, const TrackingResult& by_depth) {
+  return by_depth.measures.well_posed && by_depth.hold < kLeastHold && !model.colours.empty();
+}
+
+void IcpTracker::align_all(const SurfaceMap& models, const Array<SE3>& guesses_world_from_camera, IcpResiduals residuals) {
   FOOTHOLD_EXPECTS(!scratch_->levels[0].depth.empty() && !models.empty());
   FOOTHOLD_EXPECTS(models.pixels.memory() == context_.memory() && guesses_world_from_camera.memory() == context_.memory());
   FOOTHOLD_EXPECTS(guesses_world_from_camera.size() == models.num_renderings());
+  FOOTHOLD_EXPECTS(residuals == IcpResiduals::kDepth || !models.colours.empty());
   const ScopedStage stage(context_, "fusion/track");
   dispatch(context_, [&](auto on) {
-    IcpAlgorithms<typename decltype(on)::Executor>::align(context_, levels_, range_, models, guesses_world_from_camera.data(), *scratch_);
+    using Algorithms = IcpAlgorithms<typename decltype(on)::Executor>;
+    const SE3* const guesses = guesses_world_from_camera.data();
+    const auto align = residuals == IcpResiduals::kDepth ? Algorithms::align_by_depth : Algorithms::align_by_both;
+    align(context_, levels_, range_, models, guesses, *scratch_);
   });
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "icp/grey_kernels.h"
 #include "icp/pyramid_kernels.h"
 #include "icp/residual_kernels.h"
 #include "icp/solve_kernels.h"
@@ -24,10 +25,21 @@ struct IcpAlgorithms {
   /// Makes a rendering of the frame's depth at a level.
   static void make_surface(const Context& context, int level, const DepthRange& range, const Scratch& scratch, SurfaceMap& surface);
   /// Runs all levels for every rendering of `models` at once, from as many guesses, and leaves states and poses in `scratch`.
-  static void align(const Context& context, const IcpLevels& levels, const DepthRange& range, const SurfaceMap& models, const SE3* guesses,
-                    Scratch& scratch);
+  static void align_by_depth(const Context& context, const IcpLevels& levels, const DepthRange& range, const SurfaceMap& models,
+                             const SE3* guesses, Scratch& scratch);
+  /// The same by depth and greys.
+  static void align_by_both(const Context& context, const IcpLevels& levels, const DepthRange& range, const SurfaceMap& models,
+                            const SE3* guesses, Scratch& scratch);
 
  private:
+  /// Samples the frame's greys at the finest level, and halves them for every level up to the coarsest.
+  static void sample_greys(const Context& context, const IcpLevels& levels, const DepthRange& range, Scratch& scratch);
+  /// Makes the grey image of each rendering.
+  static void make_greys(const Context& context, const SurfaceMap& models, Scratch& scratch);
+  template <IcpResiduals kResiduals>
+  static void align(const Context& context, const IcpLevels& levels, const DepthRange& range, const SurfaceMap& models, const SE3* guesses,
+                    Scratch& scratch);
+  template <IcpResiduals kResiduals>
   static void run_level(const Executor& exec, int level, const SurfaceMap& models, const IcpStep& step, Scratch& scratch);
 };
 
@@ -40,6 +52,33 @@ void IcpAlgorithms<Executor>::build_pyramid(const Context& context, const IcpLev
     exec.for_each_team(static_cast<std::size_t>(coarse.depth.height),
                        HalveDepth{fine.depth, range, scratch.depths_m[static_cast<std::size_t>(l - 1)].data(), coarse.depth.width});
   }
+}
+
+template <class Executor>
+void IcpAlgorithms<Executor>::sample_greys(const Context& context, const IcpLevels& levels, const DepthRange& range, Scratch& scratch) {
+  const Executor exec(context);
+  const DepthLevel& finest = scratch.levels[levels.finest];
+  while (scratch.greys.size() < static_cast<std::size_t>(levels.coarsest - levels.finest + 1)) scratch.greys.emplace_back(context.memory());
+  for (int l = levels.finest; l <= levels.coarsest; ++l)
+    scratch.greys[static_cast<std::size_t>(l - levels.finest)].resize(scratch.levels[l].depth.size());
+  scratch.sharp_greys.resize(finest.depth.size());
+  exec.for_each(finest.depth.size(), SampleGrey{finest, range, GreySampler::of(scratch.frame), scratch.sharp_greys.data()});
+  exec.for_each(finest.depth.size(),
+                SmoothGrey{scratch.sharp_greys.data(), finest.depth.width, finest.depth.height, scratch.greys.front().data()});
+  for (int l = levels.finest + 1; l <= levels.coarsest; ++l) {
+    const auto i = static_cast<std::size_t>(l - levels.finest);
+    const ImageView<const float>& coarse = scratch.levels[l].depth;
+    exec.for_each(coarse.size(),
+                  HalveGrey{scratch.greys[i - 1].data(), scratch.levels[l - 1].depth.width, coarse.width, scratch.greys[i].data()});
+  }
+}
+
+template <class Executor>
+void IcpAlgorithms<Executor>::make_greys(const Context& context, const SurfaceMap& models, Scratch& scratch) {
+  const Executor exec(context);
+  scratch.model_greys.resize(models.pixels.size());
+  exec.for_each(models.pixels.size(), MakeGreyPixel{models.pixels.data(), models.colours.data(), models.camera.width, models.camera.height,
+                                                    scratch.model_greys.data()});
 }
 
 template <class Executor>
@@ -62,20 +101,23 @@ void IcpAlgorithms<Executor>::make_surface(const Context& context, int level, co
 }
 
 template <class Executor>
+template <IcpResiduals kResiduals>
 void IcpAlgorithms<Executor>::run_level(const Executor& exec, int level, const SurfaceMap& models, const IcpStep& step, Scratch& scratch) {
   constexpr int kWidth = Executor::kVectorWidth;
+  constexpr bool kWithGreys = kResiduals == IcpResiduals::kDepthAndGrey;
+  using Sum = SumChunk<kWidth, kResiduals>;
   const std::size_t num_alignments = models.num_renderings();
   const ImageView<const float>& depth = scratch.levels[level].depth;
   const int num_groups = (depth.width + kWidth - 1) / kWidth * depth.height;
-  const int num_chunks = (num_groups + SumChunk<kWidth>::kGroupsPerChunk - 1) / SumChunk<kWidth>::kGroupsPerChunk;
+  const int num_chunks = (num_groups + Sum::kGroupsPerChunk - 1) / Sum::kGroupsPerChunk;
   const std::size_t num_teams = num_alignments * static_cast<std::size_t>(num_chunks);
-  scratch.chunk_sums.resize(num_teams * kNumSums);
+  scratch.chunk_sums.resize(num_teams * Sum::kNumSums);
   float* const sums = scratch.chunk_sums.data();
   IcpState* const states = scratch.states.data();
   exec.for_each(num_alignments, BeginLevel{states});
   for (int i = 0; i < kStepsPerLevel; ++i) {
-    exec.for_each_team(num_teams, SumChunk<kWidth>{step, num_chunks, states, sums});
-    exec.template for_each_team<SolveScratch>(num_alignments, SolveStep{states, sums, num_chunks, i == 0});
+    exec.for_each_team(num_teams, Sum{step, num_chunks, states, sums});
+    exec.template for_each_team<SolveScratch>(num_alignments, SolveStep{states, sums, num_chunks, kResiduals, i == 0 || kWithGreys});
     if constexpr (Executor::kDevice == Device::kCpu) {
       if (std::all_of(states, states + num_alignments, [](const IcpState& state) { return state.converged != 0; })) break;
     }
@@ -83,6 +125,7 @@ void IcpAlgorithms<Executor>::run_level(const Executor& exec, int level, const S
 }
 
 template <class Executor>
+template <IcpResiduals kResiduals>
 void IcpAlgorithms<Executor>::align(const Context& context, const IcpLevels& levels, const DepthRange& range, const SurfaceMap& models,
                                     const SE3* guesses, Scratch& scratch) {
   const Executor exec(context);
@@ -95,11 +138,30 @@ void IcpAlgorithms<Executor>::align(const Context& context, const IcpLevels& lev
                         : static_cast<float>(l - levels.finest) / static_cast<float>(levels.coarsest - levels.finest);
     const float outlier_m = kFinestOutlierM * std::pow(kCoarsestOutlierM / kFinestOutlierM, t);
     const RenderCamera& camera = models.camera;
-    run_level(exec, l, models, {scratch.levels[l], models.pixels.data(), camera.intrinsics, camera.width, camera.height, outlier_m, range},
-              scratch);
+    IcpStep step{
+        scratch.levels[l], models.pixels.data(), camera.intrinsics, camera.width, camera.height, nullptr, nullptr, outlier_m, range};
+    if constexpr (kResiduals == IcpResiduals::kDepthAndGrey) {
+      step.live_greys = scratch.greys[static_cast<std::size_t>(l - levels.finest)].data();
+      step.model_greys = scratch.model_greys.data();
+    }
+    run_level<kResiduals>(exec, l, models, step, scratch);
   }
   scratch.world_from_cameras.resize(num_alignments);
   exec.for_each(num_alignments, EndIcp{scratch.states.data(), scratch.world_from_cameras.data()});
+}
+
+template <class Executor>
+void IcpAlgorithms<Executor>::align_by_depth(const Context& context, const IcpLevels& levels, const DepthRange& range,
+                                             const SurfaceMap& models, const SE3* guesses, Scratch& scratch) {
+  align<IcpResiduals::kDepth>(context, levels, range, models, guesses, scratch);
+}
+
+template <class Executor>
+void IcpAlgorithms<Executor>::align_by_both(const Context& context, const IcpLevels& levels, const DepthRange& range,
+                                            const SurfaceMap& models, const SE3* guesses, Scratch& scratch) {
+  sample_greys(context, levels, range, scratch);
+  make_greys(context, models, scratch);
+  align<IcpResiduals::kDepthAndGrey>(context, levels, range, models, guesses, scratch);
 }
 
 }  // namespace foothold

@@ -14,14 +14,17 @@ struct IcpStep {
   Intrinsics model_intrinsics;
   int model_width;
   int model_height;
+  const float* live_greys;       ///< like model_greys nullptr where depth alone is compared
+  const GreyPixel* model_greys;  ///< one rendering after another
   float outlier_m;
   DepthRange range;
 };
 
 /// Sums the normal equations of one alignment over one chunk of pixels; kWidth pixels of a row side by side.
-template <int kWidth>
+template <int kWidth, IcpResiduals kResiduals>
 struct SumChunk {
   static constexpr int kGroupsPerChunk = 512 / kWidth;
+  static constexpr int kNumSums = num_sums_of(kResiduals);
 
   IcpStep step;
   int num_chunks;
@@ -34,8 +37,9 @@ struct SumChunk {
     const int chunk = static_cast<int>(item) % num_chunks;
     const IcpState& state = states[alignment];
     if (state.converged != 0) return;
-    const SurfacePixel* const model = step.models + static_cast<std::size_t>(alignment) * static_cast<std::size_t>(step.model_width) *
-                                                        static_cast<std::size_t>(step.model_height);
+    const std::size_t first_pixel =
+        static_cast<std::size_t>(alignment) * static_cast<std::size_t>(step.model_width) * static_cast<std::size_t>(step.model_height);
+    const SurfacePixel* const model = step.models + first_pixel;
     const int groups_per_row = (step.live.depth.width + kWidth - 1) / kWidth;
     const int num_groups = groups_per_row * step.live.depth.height;
     const int first = chunk * kGroupsPerChunk;
@@ -43,7 +47,15 @@ struct SumChunk {
     float sums[kNumSums][kWidth] = {};
     for (int k = team.lane(); k < kGroupsPerChunk; k += team.size()) {
       const int group = first + k;
-      if (group < num_groups) add_group(model, group % groups_per_row * kWidth, group / groups_per_row, pose, sums);
+      if (group >= num_groups) continue;
+      Points points;
+      const int u0 = group % groups_per_row * kWidth;
+      const int v = group / groups_per_row;
+      project(u0, v, pose, points);
+      add_distances(model, points, sums);
+      if constexpr (kResiduals == IcpResiduals::kDepthAndGrey) {
+        add_greys(model, step.model_greys + first_pixel, u0, v, state.trial_offset, points, sums);
+      }
     }
     float totals[kNumSums];
     for (int j = 0; j < kNumSums; ++j) {
@@ -65,12 +77,12 @@ struct SumChunk {
     float noise[kWidth];  ///< growth of the noise with depth
     float u[kWidth];      ///< of the rendering, a whole number
     float v[kWidth];
+    float right[kWidth];  ///< of that pixel's centre [px]
+    float down[kWidth];
     int pixel[kWidth];  ///< -1 outside the rendering
   };
 
-  FOOTHOLD_HD void add_group(const SurfacePixel* model, int u0, int v, const SE3& pose, float (&sums)[kNumSums][kWidth]) const {
-    Points points;
-    project(u0, v, pose, points);
+  FOOTHOLD_HD void add_distances(const SurfacePixel* model, const Points& points, float (&sums)[kNumSums][kWidth]) const {
     float nx[kWidth];
     float ny[kWidth];
     float nz[kWidth];
@@ -119,6 +131,8 @@ struct SumChunk {
       points.noise[i] = 1.0F + kNoiseGrowth * z * z;
       points.u[i] = static_cast<float>(column);
       points.v[i] = static_cast<float>(line);
+      points.right[i] = inside ? u - static_cast<float>(column) : 0.0F;
+      points.down[i] = inside ? w - static_cast<float>(line) : 0.0F;
       points.pixel[i] = inside ? line * step.model_width + column : -1;
     }
   }
@@ -158,6 +172,57 @@ struct SumChunk {
       sums[kValidSum][i] += points.valid[i];
       sums[kMappedSum][i] += has_normal ? points.valid[i] : 0.0F;
     }
+    add_normal_equations(jacobian, weight, residual, sums);
+  }
+
+  /// Compares greys where depths agree. A pixel's grey goes on linearly around its centre, so that r and J are smooth.
+  FOOTHOLD_HD void add_greys(const SurfacePixel* model, const GreyPixel* model_greys, int u0, int v, float offset, const Points& points,
+                             float (&sums)[kNumSums][kWidth]) const {
+    const Intrinsics& k = step.model_intrinsics;
+    const int width = step.live.depth.width;
+    const float* const row = step.live_greys + static_cast<std::size_t>(v) * static_cast<std::size_t>(width);
+    float jacobian[6][kWidth];
+    float weight[kWidth];
+    float residual[kWidth];
+    float live[kWidth];
+    float depth[kWidth];
+    GreyPixel greys[kWidth];
+    for (int i = 0; i < kWidth; ++i) {
+      live[i] = u0 + i < width ? row[u0 + i] : -1.0F;
+      depth[i] = points.pixel[i] >= 0 ? model[points.pixel[i]].depth_m : 0.0F;
+      greys[i] = points.pixel[i] >= 0 ? model_greys[points.pixel[i]] : GreyPixel{};
+    }
+    for (int i = 0; i < kWidth; ++i) {
+      const float r = greys[i].grey + greys[i].along_u * points.right[i] + greys[i].along_v * points.down[i] - live[i] - offset;
+      const float relative = r * (1.0F / kGreyOutlier);
+      const float inside = 1.0F - relative * relative;
+      const float apart = points.z[i] - depth[i];
+      const bool partner = (live[i] >= 0.0F) & (greys[i].grey >= 0.0F) & (inside > 0.0F) &
+                           (apart * apart < kMaxPartnerRatio * step.outlier_m * step.outlier_m * points.scale[i] * points.scale[i]);
+      const float inverse = partner ? 1.0F / points.z[i] : 0.0F;
+      const float gx = greys[i].along_u * k.fx * inverse;
+      const float gy = greys[i].along_v * k.fy * inverse;
+      const float gz = -(gx * points.x[i] + gy * points.y[i]) * inverse;
+      weight[i] = partner ? inside * inside : 0.0F;
+      residual[i] = partner ? r : 0.0F;
+      jacobian[0][i] = points.y[i] * gz - points.z[i] * gy;
+      jacobian[1][i] = points.z[i] * gx - points.x[i] * gz;
+      jacobian[2][i] = points.x[i] * gy - points.y[i] * gx;
+      jacobian[3][i] = gx;
+      jacobian[4][i] = gy;
+      jacobian[5][i] = gz;
+      sums[kGreyWeightSum][i] += weight[i];
+      sums[kGreyOffsetSum + 6][i] += weight[i] * residual[i];
+    }
+    for (int a = 0; a < 6; ++a) {
+      for (int i = 0; i < kWidth; ++i) sums[kGreyOffsetSum + a][i] += weight[i] * jacobian[a][i];
+    }
+    add_normal_equations(jacobian, weight, residual, sums + kGreySum);
+  }
+
+  /// Adds w J J^T, its upper triangle, and w J r.
+  FOOTHOLD_HD static void add_normal_equations(const float (&jacobian)[6][kWidth], const float (&weight)[kWidth],
+                                               const float (&residual)[kWidth], float (*sums)[kWidth]) {
     int row = 0;
     for (int a = 0; a < 6; ++a) {
       float weighted[kWidth];

@@ -5,23 +5,16 @@
 
 #include <cmath>
 
+#include "grey_sampler.h"
 #include "rounding.h"
 #include "view/view_sums.h"
 
 namespace foothold {
 
-/// Grey of a colour, in [0, 1], by the luma weights of ITU-R BT.601.
-FOOTHOLD_HD inline float grey_of(const Rgb8& colour) {
-  return (0.299F * static_cast<float>(colour.r) + 0.587F * static_cast<float>(colour.g) + 0.114F * static_cast<float>(colour.b)) *
-         (1.0F / 255.0F);
-}
-
 struct SampleFrame {
   ImageView<const float> depth;
-  ColourView colour;
+  GreySampler greys;
   Intrinsics depth_intrinsics;
-  Intrinsics colour_intrinsics;
-  SE3 colour_from_depth;
   int width;
   DepthRange range;
   ViewPixel* pixels;
@@ -31,36 +24,8 @@ struct SampleFrame {
     const int v = static_cast<int>(i) / width * kViewStridePx + kViewStridePx / 2;
     const float depth_m = depth(u, v);
     const bool usable = range.holds(depth_m);
-    pixels[i] = {usable ? depth_m : 0.0F, usable ? grey_at(u, v, depth_m) : -1.0F};
-  }
-
-  FOOTHOLD_HD float grey_at(int u, int v, float depth_m) const {
-    const Eigen::Vector3f point = colour_from_depth * depth_intrinsics.back_project(static_cast<float>(u), static_cast<float>(v), depth_m);
-    if (point.z() <= 0.0F) return -1.0F;
-    int cu = 0;
-    int cv = 0;
-    if (!nearest_pixel(colour_intrinsics.project(point), colour.width, colour.height, cu, cv)) return -1.0F;
-    // The mean over the pixels that this one stands for: renderings are smooth, and single pixels would alias.
-    float sum = 0.0F;
-    const int u0 = cu - kViewStridePx / 2;
-    const int v0 = cv - kViewStridePx / 2;
-    if (u0 >= 0 && v0 >= 0 && u0 + kViewStridePx <= colour.width && v0 + kViewStridePx <= colour.height) {
-      for (int y = 0; y < kViewStridePx; ++y) {
-        float greys[kViewStridePx];
-        for (int x = 0; x < kViewStridePx; ++x) greys[x] = grey_of(colour(u0 + x, v0 + y));
-        for (const float grey : greys) sum += grey;
-      }
-      return sum / static_cast<float>(kViewStridePx * kViewStridePx);
-    }
-    int count = 0;
-    for (int y = cv - kViewStridePx / 2; y <= cv + (kViewStridePx - 1) / 2; ++y) {
-      for (int x = cu - kViewStridePx / 2; x <= cu + (kViewStridePx - 1) / 2; ++x) {
-        if (x < 0 || y < 0 || x >= colour.width || y >= colour.height) continue;
-        sum += grey_of(colour(x, y));
-        ++count;
-      }
-    }
-    return sum / static_cast<float>(count);
+    pixels[i] = {usable ? depth_m : 0.0F,
+                 usable ? greys.at(depth_intrinsics.back_project(static_cast<float>(u), static_cast<float>(v), depth_m)) : -1.0F};
   }
 };
 
@@ -258,8 +223,7 @@ template <class Executor>
 void ViewAlgorithms<Executor>::sample_frame(const Context& context, const Frame& frame, const DepthRange& range, Scratch& scratch) {
   const Executor exec(context);
   exec.for_each(scratch.pixels.size(),
-                SampleFrame{frame.depth, frame.colour, frame.calibration.depth, frame.calibration.colour,
-                            frame.calibration.depth_from_colour.inverse(), scratch.width, range, scratch.pixels.data()});
+                SampleFrame{frame.depth, GreySampler::of(frame), frame.calibration.depth, scratch.width, range, scratch.pixels.data()});
 }
 
 template <class Executor>

@@ -140,6 +140,7 @@ class FusionPipeline : public Persistent {
   void start(const Frame& frame, FusionFrameResult& result);
   void follow(const Frame& frame, bool usable, bool may_track, FusionFrameResult& result);
   void track(const Frame& frame, Sighting& sighting, FusionFrameResult& result);
+  TrackingResult align(IcpResiduals residuals, ViewAgreement& agreement);
   void relocalise(const Frame& frame, Sighting& sighting, FusionFrameResult& result);
   std::vector<PoseEstimate> propose(const Frame& frame, bool is_lost, FusionFrameResult& result);
   void carry_candidates();

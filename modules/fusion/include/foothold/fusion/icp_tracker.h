@@ -21,6 +21,12 @@ struct IcpLevels {
   static IcpLevels for_divisor(int divisor);
 };
 
+/// What alignment compares.
+enum class IcpResiduals {
+  kDepth,        ///< distances from surfaces
+  kDepthAndGrey  ///< smoothed grey values, too
+};
+
 /// What alignment says about itself; grade_tracking() goes by it. Reference: [Prisacariu2017] Sec. 4.
 struct TrackingMeasures {
   /// log det(H n / N_total): how well the pose is determined, over all pixels; meaningless unless well_posed. A small overlap shows here.
@@ -47,6 +53,9 @@ struct TrackingResult {
   /// The translation that the surfaces resist least, rotation being free to follow: along a table top, a corridor. Unit length, in the
   /// world, either of its two signs; zero unless well_posed.
   Eigen::Vector3f loosest_world = Eigen::Vector3f::Zero();
+  /// How well the surfaces hold the camera along it, 0 (not at all) to 1/3 (as well as along any other): the mean, over weighted pixels,
+  /// of the squared cosine between it and the surface normal, less what rotation can follow. Zero unless well_posed.
+  float hold = 0.0F;
 };
 
 /// Projective point-to-plane ICP, coarse to fine, with robust weights and Levenberg-Marquardt damping.
@@ -54,8 +63,13 @@ struct TrackingResult {
 /// Each pixel of the live image is moved into the rendering's camera and compared with the surface at the pixel where it lands:
 /// r = n . (q - m), weighted by Tukey's function. H = sum w J J^T with J = (q x n, n).
 ///
+/// Where surfaces leave the camera free, along equal steps or a corridor, and the rendering has colour, smoothed grey values are compared,
+/// too: r = I_model - I_live - b with a common offset b. Their weight is small, so that they decide only there. Measures are of depth
+/// alone.
+///
 /// Determinism: sums are taken over chunks of fixed size and combined in order; identical for any number of threads.
-/// Reference: [Blais1995] projective association, [Chen1992] point-to-plane, [Newcombe2011] Sec. 3.5, [Beaton1974] Tukey's weights.
+/// Reference: [Blais1995] projective association, [Chen1992] point-to-plane, [Newcombe2011] Sec. 3.5, [Beaton1974] Tukey's weights;
+/// [Steinbruecker2011] grey values, [Whelan2013] both together.
 class IcpTracker {
  public:
   struct Scratch;  ///< buffers of the implementation
@@ -79,14 +93,17 @@ class IcpTracker {
   /// @param surface  Output; its memory is reused. @pre set_frame() was called; `surface` lives in the context's memory.
   void make_surface(SurfaceMap& surface) const;
 
-  /// Aligns the frame with a rendering, starting from a guess of its pose.
+  /// Aligns the frame with a rendering, starting from a guess of its pose: by depth and, if needs_greys(), once more by greys, too.
   /// @return The best pose found; measures.well_posed is false where the data did not determine one.
   /// @pre set_frame() was called; `model` lives in the context's memory and is not empty.
   TrackingResult track(const SurfaceMap& model, const SE3& guess_world_from_camera);
 
+  /// Whether an alignment by depth with a rendering may have slid where surfaces leave the camera free, and there is colour to tell.
+  static bool needs_greys(const SurfaceMap& model, const TrackingResult& by_depth);
+
   /// Aligns the frame with each of several renderings, all at once, each from a guess of its own, and does not wait for the device.
-  /// @pre As for track(); there are as many guesses as renderings, in the context's memory.
-  void align_all(const SurfaceMap& models, const Array<SE3>& guesses_world_from_camera);
+  /// @pre As for track(); there are as many guesses as renderings, in the context's memory. Greys need renderings with colour.
+  void align_all(const SurfaceMap& models, const Array<SE3>& guesses_world_from_camera, IcpResiduals residuals = IcpResiduals::kDepth);
   /// Where align_all() ended, in the context's memory: poses to render or to compare next, or guesses to go on from.
   const Array<SE3>& world_from_cameras() const;
   /// Asks for what results() then says, once the reads were waited for.
