@@ -230,6 +230,23 @@ TEST_CASE("FusionPipeline: a forced loss is one whatever the frame shows") {
   REQUIRE_FALSE(run.last.relocalised);
 }
 
+TEST_CASE("FusionPipeline: a tracked pose that jumps is not believed: the relocaliser is asked, and views must confirm what it finds") {
+  FusionSettings settings;
+  settings.max_motion_m = 0.001F;
+  OracleRelocaliser oracle;
+  FusionPipeline pipeline(Context(), settings, &oracle);
+  pipeline.start_at(test::office().pose(0));
+  pipeline.process(test::office().frame(0).view());
+  const RgbdFrame& next = test::office().frame(1);
+  REQUIRE(translation_distance_m(*next.world_from_camera, test::office().pose(0)) > settings.max_motion_m);
+  oracle.answers = {{*next.world_from_camera, 0.9F}};
+  const FusionFrameResult result = pipeline.process(next.view());
+  REQUIRE(oracle.num_asked == 1);
+  REQUIRE(result.relocalised);
+  REQUIRE(result.state == RecoveryState::kSettling);
+  REQUIRE_FALSE(result.fused);
+}
+
 TEST_CASE("FusionPipeline: malformed frames count as lost ones, before and after the start") {
   OracleRelocaliser oracle;
   FusionPipeline pipeline(Context(), {}, &oracle);

@@ -151,11 +151,11 @@ void FusionPipeline::track(const Frame& frame, Sighting& sighting, FusionFrameRe
     result.agreement = agreement;
     const RefinedPose view = refiner_.rate(tracked.measures, result.agreement);
     result.confidence = std::min(result.confidence, view.probability);
-    if (!is_near(tracked.world_from_camera, world_from_camera_, settings_.max_motion_m, settings_.max_motion_deg) ||
-        view.probability < settings_.min_view_probability || (policy_.is_unconfirmed() && view.contradicted)) {
+    const bool has_jumped = !is_near(tracked.world_from_camera, world_from_camera_, settings_.max_motion_m, settings_.max_motion_deg);
+    if (view.probability < settings_.min_view_probability || (policy_.is_unconfirmed() && view.contradicted)) {
       result.quality = TrackingQuality::kPoor;
     }
-    if (refiner_.is_hopeless(view)) result.quality = TrackingQuality::kFailed;
+    if (has_jumped || refiner_.is_hopeless(view)) result.quality = TrackingQuality::kFailed;
     sighting.is_new_view = result.quality == TrackingQuality::kGood && view.probability > refiner_.acceptance_probability() &&
                            !is_near(tracked.world_from_camera, explained_world_from_camera_, kNewViewM, kNewViewDeg);
   }

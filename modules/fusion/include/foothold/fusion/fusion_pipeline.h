@@ -21,7 +21,8 @@ struct FusionSettings {
   PoseRefinerSettings refiner;        ///< of the refinement of proposals
   /// The map is rendered for tracking in images reduced by this divisor.
   int render_divisor = 4;
-  /// A frame that moved further than this since the last counts as poorly tracked at best: ICP may have snapped to another place.
+  /// Tracking of a frame that moved further than this since the last has failed: ICP may have snapped to another place, such as the next of
+  /// equal steps.
   float max_motion_m = 0.2F;
   float max_motion_deg = 15.0F;  ///< likewise [deg]
   /// A frame whose view the acceptance classifier gives less than this probability counts as poorly tracked at best. The classifier's
@@ -39,7 +40,7 @@ struct FusionSettings {
     v(&FusionSettings::render_divisor, "render_divisor",
       "Reduction of the renderings that frames are tracked against (T: fusion_benchmark, kitchen).", Range{1, 16});
     v(&FusionSettings::max_motion_m, "max_motion_m",
-      "Motion between frames beyond which tracking is doubted [m] (T: replay_sequence, kitchen).", Range{0.001, 100.0});
+      "Motion between frames beyond which tracking has failed [m] (T: replay_sequence, kitchen).", Range{0.001, 100.0});
     v(&FusionSettings::max_motion_deg, "max_motion_deg", "The same for rotation [deg] (T: replay_sequence, kitchen).", Range{0.01, 180.0});
     v(&FusionSettings::min_view_probability, "min_view_probability",
       "Probability below which a view is doubted (T: fusion_benchmark, teddy).", Range{0.0, 1.0});
