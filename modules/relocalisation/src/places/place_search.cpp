@@ -19,7 +19,7 @@ constexpr float kFamiliarVotes = 0.04F;                       ///< share from wh
 constexpr float kLikelyVotes = 0.4F;                          ///< of the highest share, from which a place may be the right one
 constexpr float kRivalVotes = 0.7F;                           ///< the same, from which a place may be mistaken for the other
 constexpr std::size_t kMostPlaces = 5;                        ///< upright attempts
-constexpr std::size_t kMostUnlikely = 3;                      ///< the same, where no place has many votes
+constexpr std::size_t kMostUnlikely = 8;                      ///< the same, where no place has many votes: most are given up early
 constexpr std::size_t kMostRolledViews = 2;                   ///< attempts of rolled cameras; one, where no roll has many votes
 constexpr float kFewestRolledVotes = 0.005F;                  ///< share below which they are hardly ever right
 constexpr float kOtherLights[] = {0.45F, 0.67F, 1.5F, 2.2F};  ///< gains in which unfamiliar views are asked
@@ -85,14 +85,14 @@ std::vector<PoseEstimate> combine(std::vector<Attempt> attempts, int num_untried
 /// What was found so far.
 class Attempts {
  public:
-  Attempts(const Context& context, PoseEstimator& estimator, const PoseQuery& query, ScenePlaces& places, Explanation* explanation)
-      : context_(context), estimator_(estimator), query_(query), places_(places), explanation_(explanation) {}
+  Attempts(const Context& context, PoseEstimator& estimator, ScenePlaces& places, Explanation* explanation)
+      : context_(context), estimator_(estimator), places_(places), explanation_(explanation) {}
 
-  /// Estimates the pose in a place that was voted for.
-  void make(const PlaceVote& vote, const DeviceForest& forest) {
+  /// Estimates the pose in a place that was voted for. @pre The estimator is prepared for the query.
+  void make(const PoseQuery& query, const PlaceVote& vote, const DeviceForest& forest) {
     Place& place = places_[vote.place];
     const PlaceView view{place.reservoirs.view(), place.modes.view(), Span<const ReservoirPoint>(place.latest)};
-    std::vector<PoseEstimate> estimates = estimates_of(estimator_.estimate(context_, query_, view, forest.view(vote.roll)), place);
+    std::vector<PoseEstimate> estimates = estimates_of(estimator_.estimate(context_, query, view, forest.view(vote.roll)), place);
     const float confidence = estimates.empty() ? 0.0F : estimates.front().confidence;
     if (attempts_.empty() || confidence > confidence_) {
       confidence_ = confidence;
@@ -107,7 +107,6 @@ class Attempts {
  private:
   const Context& context_;
   PoseEstimator& estimator_;
-  const PoseQuery& query_;
   ScenePlaces& places_;
   Explanation* explanation_;
   std::vector<Attempt> attempts_;
@@ -164,35 +163,42 @@ std::vector<PoseEstimate> PlaceSearch::find(const Context& context, const PoseQu
   std::vector<LeafModesView> modes;
   for (std::size_t i = 0; i < places.size(); ++i) modes.push_back(places[i].modes.view());
 
+  Attempts attempts(context, estimator_, places, explanation);
+  int num_untried = 0;
+  float most = 0.0F;
+  const auto try_upright = [&](const PoseQuery& query, const std::vector<PlaceVote>& votes) {
+    estimator_.prepare(context, query);
+    most = most_votes(votes);
+    num_untried = 0;
+    const std::size_t most_places = most >= kFewestVotes ? kMostPlaces : kMostUnlikely;
+    for (std::size_t i = 0; i < votes.size(); ++i) {
+      const bool is_rival = votes[i].share >= kRivalVotes * most;
+      const bool is_likely = votes[i].share >= kLikelyVotes * most && attempts.confidence() < sure_confidence_;
+      const bool may_try = i < most_places && is_time_left();
+      if (i == 0 || (may_try && (is_rival || is_likely))) {
+        attempts.make(query, votes[i], forest);
+      } else if (is_rival) {
+        ++num_untried;
+      }
+    }
+  };
+
   votes_.prepare(context, as_seen);
   std::vector<PlaceVote> upright = votes_.count(context, as_seen, modes, {forest.view()}, 0, kMostVoters);
-  const bool may_be_relit = most_votes(upright) < kFewestVotes && is_time_left();
   const bool is_unfamiliar = most_votes(upright) < kFamiliarVotes;
-  const PoseQuery query{as_seen.frame, may_be_relit ? find_light(context, as_seen, modes, forest.view(), upright) : as_seen.image,
-                        is_unfamiliar};
-  estimator_.prepare(context, query);
-
-  Attempts attempts(context, estimator_, query, places, explanation);
-  const float most = most_votes(upright);
-  const bool is_familiar = most >= kFewestVotes;
-  const std::size_t most_places = is_familiar ? kMostPlaces : kMostUnlikely;
-  int num_untried = 0;
-  for (std::size_t i = 0; i < upright.size(); ++i) {
-    const bool is_rival = upright[i].share >= kRivalVotes * most;
-    const bool is_likely = is_familiar && upright[i].share >= kLikelyVotes * most && attempts.confidence() < sure_confidence_;
-    const bool may_try = i < most_places && is_time_left();
-    if (i == 0 || (may_try && (is_rival || is_likely))) {
-      attempts.make(upright[i], forest);
-    } else if (is_rival) {
-      ++num_untried;
-    }
+  const FeatureImage* image = &as_seen.image;
+  const auto query = [&] { return PoseQuery{as_seen.frame, *image, is_unfamiliar}; };
+  try_upright(query(), upright);
+  if (most < kFewestVotes && attempts.confidence() < sure_confidence_ && is_time_left()) {
+    image = &find_light(context, as_seen, modes, forest.view(), upright);
+    if (image != &as_seen.image) try_upright(query(), upright);
   }
   if (attempts.confidence() < sure_confidence_ && is_time_left()) {
-    const std::vector<PlaceVote> votes = vote_rolled(context, query, modes, forest);
+    const std::vector<PlaceVote> votes = vote_rolled(context, query(), modes, forest);
     const std::size_t most_rolled = most_votes(votes) >= kFewestVotes ? kMostRolledViews : 1;
     for (std::size_t i = 0; i < votes.size() && i < most_rolled; ++i) {
       if (votes[i].share < std::max(kFewestRolledVotes, most) || attempts.confidence() >= sure_confidence_ || !is_time_left()) break;
-      attempts.make(votes[i], forest);
+      attempts.make(query(), votes[i], forest);
     }
   }
   return combine(attempts.take(), num_untried, num_candidates_);
